@@ -389,7 +389,9 @@ void drive_vehicles(World& world, std::uint64_t seed) {
   }
   SetVehicle command{body, {}};
   if (chance(random, 5)) return (void)world.apply(command);
-  const auto half = [&] { return Length::from_raw(static_cast<std::int32_t>(log_between(random, 1LL << 17, 1LL << 21))); };
+  const auto half = [&] {
+    return Length::from_raw(static_cast<std::int32_t>(log_between(random, 1LL << 17, 1LL << 21)));
+  };
   const Length length = half(), track = half();
   command.def = make_car(length, track, -half(), Torque::from_integer(random.between(0, 5000)));
   for (Axle& axle : command.def->axles) {

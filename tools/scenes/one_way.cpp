@@ -1,4 +1,5 @@
-// Platforms that one jumps onto from below: boxes, balls and characters go up through them and land.
+// Platforms that one jumps onto from below: boxes, balls and characters go up through them and
+// land.
 #include <lockstone/character.h>
 
 #include "tools/scenes/build.h"
@@ -37,9 +38,9 @@ void add_platforms(World& world) {
 
 void add_jumpers(World& world) {
   for (int i = 0; i < 14; ++i) {
-    const Vec3<Position> at{millimetres(i % 7 * 1900 - 6000), 0.4_m, millimetres(i / 7 * 1600 - 800)};
-    BodyDef def =
-        loose(i % 2 == 0 ? Shape::box(0.3_m, 0.3_m, 0.3_m) : Shape::sphere(0.35_m), at);
+    const Vec3<Position> at{millimetres(i % 7 * 1900 - 6000), 0.4_m,
+                            millimetres(i / 7 * 1600 - 800)};
+    BodyDef def = loose(i % 2 == 0 ? Shape::box(0.3_m, 0.3_m, 0.3_m) : Shape::sphere(0.35_m), at);
     def.user_data = k_jumper;
     add(world, def);
   }

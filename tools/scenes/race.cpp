@@ -98,7 +98,8 @@ Waypoint target_of(const Vec3<Position>& at) {
   Length least = Length::max();
   for (int i = 0; i < k_waypoints; ++i) {
     const Waypoint point = waypoint(i, k_waypoints);
-    const Length far = length(saturated<Length>(Vec3<Position>{point.x - at.x, {}, point.z - at.z}));
+    const Length far =
+        length(saturated<Length>(Vec3<Position>{point.x - at.x, {}, point.z - at.z}));
     if (far >= least) continue;
     least = far;
     nearest = i;
@@ -110,8 +111,8 @@ Waypoint target_of(const Vec3<Position>& at) {
 void steer(World& world, BodyHandle car, std::uint32_t skill) {
   const Transform pose = pose_of(world, car);
   const Waypoint target = target_of(pose.position);
-  const Vec3<Length> way = saturated<Length>(
-      Vec3<Position>{target.x - pose.position.x, {}, target.z - pose.position.z});
+  const Vec3<Length> way =
+      saturated<Length>(Vec3<Position>{target.x - pose.position.x, {}, target.z - pose.position.z});
   const Vec3<Length> seen = rotate_inverse(to_matrix(pose.orientation), way);
   const Angle aside = atan2(seen.z, seen.x);
   const Velocity speed = length(world.velocity(car));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include <lockstone/assert.h>
 #include <lockstone/rules.h>
 #include <lockstone/trigonometry.h>
 #include <lockstone/vec3.h>
@@ -27,10 +28,12 @@ inline constexpr std::uint32_t k_most_one_way_degrees = 90;
 
 /// Bits 0 … 23: x, y, z of the direction, the largest of magnitude 127; above them the degrees.
 [[nodiscard]] inline Unit one_way_bits(const OneWay& rule) {
+  LKS_ASSERT(is_valid(rule));
   if (rule.direction == Vec3<Unit>{}) return {};
   std::int64_t most = 0;
   for (int i = 0; i < 3; ++i)
     most = std::max(most, std::abs(std::int64_t{rule.direction[i].raw}));
+  LKS_ASSERT(most > 0);
   std::uint32_t bits = std::uint32_t{rule.tolerance} << 24;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t part = raw::round_divide(std::int64_t{rule.direction[i].raw} * 127, most);
@@ -48,8 +51,11 @@ inline constexpr std::uint32_t k_most_one_way_degrees = 90;
   OneWay rule;
   if (!is_one_way(body)) return rule;
   const Unit bits = body.union_c;
-  rule.direction = direction_of(one_way_part(bits, 0), one_way_part(bits, 1), one_way_part(bits, 2));
+  rule.direction =
+      direction_of(one_way_part(bits, 0), one_way_part(bits, 1), one_way_part(bits, 2));
   rule.tolerance = static_cast<std::uint8_t>(static_cast<std::uint32_t>(bits.raw) >> 24);
+  LKS_ASSERT(rule.direction != Vec3<Unit>{});
+  LKS_ASSERT(is_valid(rule));
   return rule;
 }
 

@@ -222,8 +222,8 @@ struct SetFluid {
   Fluid fluid{};
 };
 
-/// How two bodies treat each other, until one of them is destroyed; the default rule removes theirs.
-/// Wakes both. capacity_exhausted beyond k_max_pair_rules.
+/// How two bodies treat each other, until one of them is destroyed; the default rule removes
+/// theirs. Wakes both. capacity_exhausted beyond k_max_pair_rules.
 struct SetPairRule {
   BodyHandle a{};
   BodyHandle b{};
@@ -245,8 +245,8 @@ struct SetOneWay {
   OneWay one_way{};
 };
 
-/// Makes a dynamic body the chassis of a vehicle that stands still, or without a definition takes its
-/// wheels away. capacity_exhausted beyond WorldDef::vehicle_capacity.
+/// Makes a dynamic body the chassis of a vehicle that stands still, or without a definition takes
+/// its wheels away. capacity_exhausted beyond WorldDef::vehicle_capacity.
 struct SetVehicle {
   BodyHandle chassis{};
   std::optional<VehicleDef> def{};

@@ -1,10 +1,12 @@
-// Vehicles: a dynamic body, the chassis, on sprung wheels that are rays or spheres cast to the ground,
-// with tyres, an engine and a gearbox. They are part of the state, set and driven by commands.
+// Vehicles: a dynamic body, the chassis, on sprung wheels that are rays or spheres cast to the
+// ground, with tyres, an engine and a gearbox. They are part of the state, set and driven by
+// commands.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include <lockstone/body.h>
 #include <lockstone/units.h>
@@ -24,17 +26,17 @@ inline constexpr std::size_t k_torque_points = 8;
 /// ahead, y up, z to the right.
 struct Axle {
   Vec3<Length> mount{};  ///< between the centres of the wheels where they are highest, ±32 m
-  Length half_track = Length::from_ratio(75, 100);     ///< from mount to a wheel, 0 … 16 m
-  Length radius = Length::from_ratio(33, 100);         ///< 5 cm … 4 m
-  Length travel = Length::from_ratio(25, 100);         ///< way of a wheel down from there, 1 cm … 4 m
-  Number frequency = Number::from_ratio(15, 10);       ///< Hz, of the mass on a wheel, 0.2 … 10
-  Number damping_ratio = Number::from_ratio(4, 10);    ///< 0 … 2
-  Number anti_roll{};                                  ///< stiffness over that of a spring, 0 … 4
-  Angle max_steer{};                                   ///< ±1.2 rad; the wheels turn about one point
-  Unit drive{};                                        ///< share of the drive's torque, 0 … 1
-  Torque brake = Torque::from_integer(1500);           ///< of each wheel, 0 … 10^6 N·m
-  Torque handbrake{};                                  ///< of each wheel
-  Torque differential_lock{};                          ///< the most from the faster wheel to the other
+  Length half_track = Length::from_ratio(75, 100);  ///< from mount to a wheel, 0 … 16 m
+  Length radius = Length::from_ratio(33, 100);      ///< 5 cm … 4 m
+  Length travel = Length::from_ratio(25, 100);    ///< way of a wheel down from there, 1 cm … 4 m
+  Number frequency = Number::from_ratio(15, 10);  ///< Hz, of the mass on a wheel, 0.2 … 10
+  Number damping_ratio = Number::from_ratio(4, 10);  ///< 0 … 2
+  Number anti_roll{};                                ///< stiffness over that of a spring, 0 … 4
+  Angle max_steer{};                                 ///< ±1.2 rad; the wheels turn about one point
+  Unit drive{};                                      ///< share of the drive's torque, 0 … 1
+  Torque brake = Torque::from_integer(1500);         ///< of each wheel, 0 … 10^6 N·m
+  Torque handbrake{};                                ///< of each wheel
+  Torque differential_lock{};  ///< the most from the faster wheel to the other
   Coefficient friction = Coefficient::from_integer(1);  ///< of the tyres, 0 … 1.99
 
   friend bool operator==(const Axle&, const Axle&) = default;
@@ -44,9 +46,9 @@ struct Axle {
 /// Dynamics", sin(C·atan(B·slip)), with C = 1.65 along and 1.3 across; both slips together follow
 /// the friction circle. They build up over the relaxation length.
 struct Tyre {
-  Unit peak_slip = Unit::from_ratio(1, 10);    ///< along: slip speed over speed, 0.02 … 1
-  Unit peak_angle = Unit::from_ratio(14, 100);  ///< across: tangent of the slip angle, 0.02 … 1
-  Length relaxation = Length::from_ratio(3, 10);           ///< 0.1 … 4 m
+  Unit peak_slip = Unit::from_ratio(1, 10);       ///< along: slip speed over speed, 0.02 … 1
+  Unit peak_angle = Unit::from_ratio(14, 100);    ///< across: tangent of the slip angle, 0.02 … 1
+  Length relaxation = Length::from_ratio(3, 10);  ///< 0.1 … 4 m
   Coefficient rolling_resistance = Coefficient::from_ratio(12, 1000);  ///< 0 … 1
 
   friend bool operator==(const Tyre&, const Tyre&) = default;
@@ -65,9 +67,9 @@ struct Engine {
 
 struct Gearbox {
   std::array<Number, k_max_gears> ratios{};  ///< engine over drive shaft, 0 … 100; 0 ends the list
-  Number reverse = Number::from_ratio(35, 10);        ///< 0 … 100
-  Number final_drive = Number::from_ratio(37, 10);    ///< drive shaft over wheels, 0.1 … 100
-  bool automatic = true;                              ///< shifts by itself
+  Number reverse = Number::from_ratio(35, 10);      ///< 0 … 100
+  Number final_drive = Number::from_ratio(37, 10);  ///< drive shaft over wheels, 0.1 … 100
+  bool automatic = true;                            ///< shifts by itself
   AngularVelocity shift_up = AngularVelocity::from_integer(580);    ///< rad/s of the engine
   AngularVelocity shift_down = AngularVelocity::from_integer(260);  ///< rad/s
   Torque clutch = Torque::from_integer(600);  ///< the most that it transmits, 0 … 10^6 N·m
@@ -80,6 +82,8 @@ enum class WheelCast : std::uint8_t {
   ray = 0,     ///< from the wheel's centre down: cheap
   sphere = 1,  ///< of the wheel's radius: rolls over edges
 };
+
+[[nodiscard]] std::string_view to_string(WheelCast cast);
 
 struct VehicleDef {
   std::array<Axle, k_max_axles> axles{};  ///< by x, in any order
@@ -94,7 +98,7 @@ struct VehicleDef {
   friend bool operator==(const VehicleDef&, const VehicleDef&) = default;
 };
 
-/// What a driver does. Each is clamped to its range.
+/// The controls of a driver. Each is clamped to its range.
 struct VehicleControls {
   Unit throttle{};        ///< 0 … 1
   Unit brake{};           ///< 0 … 1

@@ -210,9 +210,9 @@ class CommandExplainer::Properties {
     on_.require_motion(*record, record->is_dynamic(), "dynamic");
     on_.find.require(is_valid(*c.def), "def", "a number out of its range",
                      "within the ranges of lockstone/vehicle.h");
-    on_.find.require(can_be_chassis(on_.impl, c.chassis.index), "def", "one more vehicle",
-                     "one of WorldDef::vehicle_capacity, " +
-                         std::to_string(on_.impl.def.vehicle_capacity));
+    on_.find.require(
+        can_be_chassis(on_.impl, c.chassis.index), "def", "one more vehicle",
+        "one of WorldDef::vehicle_capacity, " + std::to_string(on_.impl.def.vehicle_capacity));
   }
   void of(const DriveVehicle& c) {
     if (on_.body(c.chassis) == nullptr) return;

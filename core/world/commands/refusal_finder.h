@@ -9,9 +9,9 @@
 #include <lockstone/body.h>
 #include <lockstone/decimal.h>
 #include <lockstone/fluid.h>
-#include <lockstone/rules.h>
 #include <lockstone/joint.h>
 #include <lockstone/refusal.h>
+#include <lockstone/rules.h>
 
 namespace lockstone {
 

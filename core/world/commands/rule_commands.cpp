@@ -111,7 +111,9 @@ const VehicleRecord* find_vehicle(const WorldData& world, std::uint32_t body) {
 
 VehicleRecord* find_vehicle(WorldData& world, std::uint32_t body) {
   const VehicleRecord* found = find_vehicle(std::as_const(world), body);
-  return found == nullptr ? nullptr : &world.vehicles[static_cast<std::size_t>(found - world.vehicles.data())];
+  return found == nullptr
+             ? nullptr
+             : &world.vehicles[static_cast<std::size_t>(found - world.vehicles.data())];
 }
 
 Status CommandExecutor::execute(const SetPairRule& command) {

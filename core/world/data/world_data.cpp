@@ -104,6 +104,10 @@ bool WorldData::are_joined(std::uint32_t a, std::uint32_t b) const {
   return joint_graph.is_exempt(pair_of(a, b));
 }
 
+bool WorldData::are_exempt(std::uint32_t a, std::uint32_t b) const {
+  return are_joined(a, b) || are_ignored(*this, a, b);
+}
+
 bool WorldData::is_obstacle(std::uint32_t body, std::uint32_t other) const {
   const BodyRecord& obstacle = bodies[other];
   return !obstacle.is_trigger() && should_collide(bodies[body].filter(), obstacle.filter()) &&

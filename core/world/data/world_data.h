@@ -62,8 +62,8 @@ struct FluidData {
 
 /// The vehicles of a world.
 struct VehicleData {
-  std::vector<VehicleRecord> vehicles;           // canonical state: the first header.vehicle_count
-  const VehiclePhase* vehicle_phase = nullptr;   // derived: null only without vehicles
+  std::vector<VehicleRecord> vehicles;          // canonical state: the first header.vehicle_count
+  const VehiclePhase* vehicle_phase = nullptr;  // derived: null only without vehicles
 };
 
 struct WorldData : FluidData, RuleTables, VehicleData {
@@ -99,16 +99,8 @@ struct WorldData : FluidData, RuleTables, VehicleData {
   [[nodiscard]] std::optional<Pair> exempt_pair(const JointRecord& joint) const;
   /// Whether a joint exempts the two from collision.
   [[nodiscard]] bool are_joined(std::uint32_t a, std::uint32_t b) const;
-  /// Whether a rule keeps the two from meeting.
-  [[nodiscard]] bool are_ignored(std::uint32_t a, std::uint32_t b) const {
-    if (header.pair_rule_count == 0) return false;
-    const PairRuleRecord* rule = find_rule(pair_rules_of(*this, header), rule_key(a, b));
-    return rule != nullptr && rule->is_ignored();
-  }
   /// Whether a joint or a rule keeps the two from meeting.
-  [[nodiscard]] bool are_exempt(std::uint32_t a, std::uint32_t b) const {
-    return are_joined(a, b) || are_ignored(a, b);
-  }
+  [[nodiscard]] bool are_exempt(std::uint32_t a, std::uint32_t b) const;
   /// Whether a body's path may end at another, as far as filters and joints decide.
   [[nodiscard]] bool is_obstacle(std::uint32_t body, std::uint32_t other) const;
   /// Lists the joints with an awake body again, if any slept, woke, came or went.
@@ -176,5 +168,12 @@ struct WorldData : FluidData, RuleTables, VehicleData {
   Profiler profiler;
   Parallel parallel;
 };
+
+/// Whether a rule keeps the two from meeting.
+[[nodiscard]] inline bool are_ignored(const WorldData& world, std::uint32_t a, std::uint32_t b) {
+  if (world.header.pair_rule_count == 0) return false;
+  const PairRuleRecord* rule = find_rule(pair_rules_of(world, world.header), rule_key(a, b));
+  return rule != nullptr && rule->is_ignored();
+}
 
 }  // namespace lockstone

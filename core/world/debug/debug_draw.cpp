@@ -76,7 +76,8 @@ void WorldDrawing::draw_shapes(DebugDraw& out) {
 
 // Wheels are no bodies: spheres with the colours of their chassis.
 void WorldDrawing::draw_wheels(DebugDraw& out) const {
-  for (const VehicleRecord& vehicle : std::span(world_.vehicles).first(world_.header.vehicle_count)) {
+  for (const VehicleRecord& vehicle :
+       std::span(world_.vehicles).first(world_.header.vehicle_count)) {
     const std::uint32_t chassis = vehicle.chassis;
     const BodyRecord& body = world_.bodies[chassis];
     if (!is_enabled(body)) continue;

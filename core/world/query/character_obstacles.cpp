@@ -26,12 +26,12 @@ ShapeHit CharacterObstacles::cast(const Vec3<Position>& from, const Vec3<Length>
 
 std::size_t CharacterObstacles::contacts(const Vec3<Position>& position, Length margin,
                                          std::span<ShapeContact> out) const {
-  const std::size_t count = world_.contacts_of_shape(def_.shape, {position, def_.orientation},
-                                                     margin, out, def_.filter);
+  const std::size_t count =
+      world_.contacts_of_shape(def_.shape, {position, def_.orientation}, margin, out, def_.filter);
   const auto found = out.first(count);
-  const auto passed = std::ranges::remove_if(
-      found, [&](const ShapeContact& contact) { return !stops(contact); });
-  return count - passed.size();
+  const auto end = std::remove_if(found.begin(), found.end(),
+                                  [&](const ShapeContact& contact) { return !stops(contact); });
+  return static_cast<std::size_t>(end - found.begin());
 }
 
 bool CharacterObstacles::is_in_front(BodyHandle body, const OneWay& rule,

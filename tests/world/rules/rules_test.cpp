@@ -209,7 +209,8 @@ TEST(SurfaceRules, LetABallBounce) {
 
 TEST(SurfaceRules, AreRefusedOutOfRange) {
   World world = empty();
-  const PairSurface wrong{.friction = Coefficient::max(), .restitution = {}, .rolling_resistance = {}};
+  const PairSurface wrong{
+      .friction = Coefficient::max(), .restitution = {}, .rolling_resistance = {}};
   EXPECT_EQ(world.apply(SetSurfaceRule{0, 0, wrong}), Status::invalid_argument);
   EXPECT_TRUE(static_cast<bool>(world.explain(SetSurfaceRule{0, 0, wrong})));
   for (std::uint32_t i = 0; i < k_max_surface_rules; ++i)

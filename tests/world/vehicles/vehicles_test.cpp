@@ -21,8 +21,8 @@ constexpr Unit k_full = Unit::from_integer(1);
 constexpr Length k_wheelbase = 2.5_m;
 
 World road(std::uint16_t tick_rate = 60) {
-  World world = test::make_world(
-      {.body_capacity = 64, .tick_rate = tick_rate, .vehicle_capacity = 16});
+  World world =
+      test::make_world({.body_capacity = 64, .tick_rate = tick_rate, .vehicle_capacity = 16});
   BodyDef ground;
   ground.motion = MotionType::static_body;
   ground.shape = Shape::half_space();
@@ -67,8 +67,8 @@ double speed_of(const World& world, BodyHandle body) {
   return std::hypot(metres_per_second(v.x), metres_per_second(v.z));
 }
 
-// v² / (2 μ g), with brakes that hold each wheel at 90 % of its grip: the loads of the axles shift by
-// μ m g h / L. A driver who stamps on them locks the wheels.
+// v² / (2 μ g), with brakes that hold each wheel at 90 % of its grip: the loads of the axles shift
+// by μ m g h / L. A driver who stamps on them locks the wheels.
 TEST(Vehicles, BrakeOverTheDistanceOfTheirGrip) {
   World world = road();
   VehicleDef def = car();
@@ -108,7 +108,8 @@ TEST(Vehicles, SlideWithLockedWheels) {
   const double slowed = v - speed_of(world, body);
   // at a slip of 1, ten times the best one; the table ends at eight times
   const double slip = 8 * std::tan(k_pi / 2 / 1.65);
-  std::printf("slides: %.4f m/s², reference %.4f\n", slowed, k_gravity * std::sin(1.65 * std::atan(slip)));
+  std::printf("slides: %.4f m/s², reference %.4f\n", slowed,
+              k_gravity * std::sin(1.65 * std::atan(slip)));
   EXPECT_NEAR(slowed, k_gravity * std::sin(1.65 * std::atan(slip)), 0.02);
 }
 
@@ -162,7 +163,8 @@ TEST(Vehicles, BounceAtTheFrequencyOfTheirSprings) {
     const double period = (crossings[3] - crossings[0]) / 3;
     const double wanted = 1 / (1.5 * std::sqrt(1 - damping * damping));
     std::printf("period %.5f s, reference %.5f; swing kept %.4f, reference %.4f\n", period, wanted,
-                peaks[3] / peaks[2], std::exp(-2 * k_pi * damping / std::sqrt(1 - damping * damping)));
+                peaks[3] / peaks[2],
+                std::exp(-2 * k_pi * damping / std::sqrt(1 - damping * damping)));
     EXPECT_NEAR(period, wanted, 0.02 * wanted);
     EXPECT_NEAR(peaks[3] / peaks[2],
                 std::exp(-2 * k_pi * damping / std::sqrt(1 - damping * damping)), 0.06);
@@ -182,13 +184,14 @@ TEST(Vehicles, CornerSlowlyOnTheRadiusOfAckermann) {
   const double turning = std::ldexp(static_cast<double>(view.angular_velocity.y.raw), -32);
   const double v = speed_of(world, body);
   const double at_rear = std::sqrt(v * v / (turning * turning) - 1.25 * 1.25);
-  std::printf("radius %.4f m, reference %.4f m, turning %.4f\n", at_rear, 2.5 / std::tan(0.3), turning);
+  std::printf("radius %.4f m, reference %.4f m, turning %.4f\n", at_rear, 2.5 / std::tan(0.3),
+              turning);
   EXPECT_LT(turning, 0);  // to the right
   EXPECT_NEAR(at_rear, 2.5 / std::tan(0.3), 0.02 * at_rear);
 }
 
-// The steering angle for a radius R at a speed v is L/R + K v²/(g R). A car whose tyres are alike and
-// whose mass stands in the middle has K = 0 while its tyres are far from their limit.
+// The steering angle for a radius R at a speed v is L/R + K v²/(g R). A car whose tyres are alike
+// and whose mass stands in the middle has K = 0 while its tyres are far from their limit.
 TEST(Vehicles, SteerNeutrallyWhenBalanced) {
   World world = road();
   VehicleDef def = car();
@@ -201,8 +204,10 @@ TEST(Vehicles, SteerNeutrallyWhenBalanced) {
   const double turning =
       std::abs(std::ldexp(static_cast<double>(world.body(body).angular_velocity.y.raw), -32));
   const double radius = speed_of(world, body) / turning;
-  const double gradient = (0.03 - 2.5 / radius) / (speed_of(world, body) * speed_of(world, body) / k_gravity / radius);
-  std::printf("radius %.3f m, reference %.3f m; understeer gradient %.5f rad\n", radius, 2.5 / 0.03, gradient);
+  const double gradient =
+      (0.03 - 2.5 / radius) / (speed_of(world, body) * speed_of(world, body) / k_gravity / radius);
+  std::printf("radius %.3f m, reference %.3f m; understeer gradient %.5f rad\n", radius, 2.5 / 0.03,
+              gradient);
   EXPECT_NEAR(gradient, 0, 0.01);
 }
 

@@ -27,7 +27,8 @@ lks_pair_surface raw_of(const std::optional<PairSurface>& surface) {
 lks_status lks_set_pair_rule(lks_world* world, lks_body a, lks_body b, uint32_t collides,
                              const lks_pair_surface* surface) {
   return call([&] {
-    order(world, SetPairRule{handle_of<BodyHandle>(a), handle_of<BodyHandle>(b),
+    order(world, SetPairRule{handle_of<BodyHandle>(a),
+                             handle_of<BodyHandle>(b),
                              {flag(collides, "collides"), pair_surface_of(surface)}});
   });
 }

@@ -137,7 +137,7 @@ lks_vehicle_controls raw_of(const VehicleControls& controls) {
 
 VehicleControls controls_of(const lks_vehicle_controls* from) {
   const lks_vehicle_controls raw = take(from, raw_of(VehicleControls{}), "controls");
-  return {Unit::from_raw(raw.throttle), Unit::from_raw(raw.brake), Unit::from_raw(raw.handbrake),
+  return {Unit::from_raw(raw.throttle), Unit::from_raw(raw.brake),  Unit::from_raw(raw.handbrake),
           Unit::from_raw(raw.steer),    Unit::from_raw(raw.clutch), raw.gear};
 }
 
@@ -185,8 +185,9 @@ lks_status lks_set_vehicle(lks_world* world, lks_body chassis, const lks_vehicle
 
 lks_status lks_drive_vehicle(lks_world* world, lks_body chassis,
                              const lks_vehicle_controls* controls) {
-  return call(
-      [&] { order(world, DriveVehicle{handle_of<BodyHandle>(chassis), controls_of(controls)}); });
+  return call([&] {
+    order(world, DriveVehicle{handle_of<BodyHandle>(chassis), controls_of(controls)});
+  });
 }
 
 lks_status lks_vehicle_get(const lks_world* world, lks_body chassis, lks_vehicle_view* out) {

@@ -386,7 +386,8 @@ NextImpact ContinuousCollision::find_impact(std::uint32_t body, const Sweep& mot
     const bool sooner =
         impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
                        (impact.fraction == next.impact.fraction && other < next.body));
-    if (sooner && !passes_on_way(world_, narrow_, {body, other}, motion, other_motion, impact.fraction))
+    if (sooner &&
+        !passes_on_way(world_, narrow_, {body, other}, motion, other_motion, impact.fraction))
       next = {other, impact};
   });
   return next;

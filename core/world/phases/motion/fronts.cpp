@@ -1,8 +1,8 @@
-#include "core/dynamics/state/one_way_bits.h"
 #include "core/world/phases/motion/fronts.h"
 
 #include "core/collision/continuous/face_clamp.h"
 #include "core/dynamics/body/motion.h"
+#include "core/dynamics/state/one_way_bits.h"
 
 namespace lockstone {
 namespace {

@@ -116,9 +116,8 @@ void add_drive(const WorldData& world, std::uint32_t body, const Vec3<Length>& a
 
 void apply_rules(const WorldData& world, const Pair& pair, ContactSurface& surface,
                  Coefficient& rolling) {
-  const std::optional<PairSurface> ruled =
-      ruled_surface(world, world.header, rule_key(pair.a, pair.b),
-                    rule_key(surface.tag_a, surface.tag_b));
+  const std::optional<PairSurface> ruled = ruled_surface(
+      world, world.header, rule_key(pair.a, pair.b), rule_key(surface.tag_a, surface.tag_b));
   if (!ruled) return;
   surface.friction = ruled->friction;
   surface.restitution = ruled->restitution;

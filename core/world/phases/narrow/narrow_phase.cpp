@@ -90,7 +90,7 @@ void NarrowPhase::run(std::span<const Pair> pairs, StepReport& report) {
 bool NarrowPhase::meet(const Pair& pair) {
   WorldData& world = data_.world;
   const BodyRecord &a = world.bodies[pair.a], &b = world.bodies[pair.b];
-  if (a.is_trigger() || b.is_trigger() || world.are_ignored(pair.a, pair.b)) return false;
+  if (a.is_trigger() || b.is_trigger() || are_ignored(world, pair.a, pair.b)) return false;
   if (is_found_at_recycling_poses(world, pair)) {
     const Shape shape_a = a.shape(), shape_b = b.shape();
     return collide({shape_a, world.cache.recycling_rotations()[pair.a]},
@@ -146,7 +146,7 @@ void NarrowPhase::collide_piece(std::uint32_t first, std::uint32_t end, PairScra
     while (exempt != exempt_pairs.end() && *exempt < data_.pairs[i])
       ++exempt;
     if (exempt != exempt_pairs.end() && *exempt == data_.pairs[i]) continue;
-    if (data_.world.are_ignored(data_.pairs[i].a, data_.pairs[i].b)) continue;
+    if (are_ignored(data_.world, data_.pairs[i].a, data_.pairs[i].b)) continue;
     while (!before.empty() && bodies_of(before.front()) < data_.pairs[i])
       before = before.subspan(1);
     std::size_t known = 0;

@@ -22,9 +22,10 @@ inline constexpr Displacement k_one_way_depth = Displacement::from_ratio(1, 100)
 /// `parts` those stay that hold: their normals lie within the tolerance. Returns whether the bodies
 /// pass each other instead; then no part holds.
 ///
-/// A pair that held goes on as long as a part holds. One that passes does so until it meets no more,
-/// or is in front by k_one_way_depth. A pair that meets for the first time holds if it is in front
-/// and no deeper than half the thickness of the moving body, where continuous collision leaves it.
+/// A pair that held goes on as long as a part holds. One that passes does so until it meets no
+/// more, or is in front by k_one_way_depth. A pair that meets for the first time holds if it is in
+/// front and no deeper than half the thickness of the moving body, where continuous collision
+/// leaves it.
 [[nodiscard]] bool is_passing(const WorldData& world, const Pair& pair,
                               std::span<const ContactRecord> before, PartContacts& parts);
 

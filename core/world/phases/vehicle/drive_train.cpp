@@ -148,8 +148,7 @@ class DriveTrain {
       const Real most = Real::of(vehicle_.clutch_torque) * grip_of_clutch(turns);
       through = clamp_real(wanted, -most, most);
     }
-    const Real speed =
-        Real{vehicle_.engine_speed.raw} + (engine_torque - through) * dt_ / engine;
+    const Real speed = Real{vehicle_.engine_speed.raw} + (engine_torque - through) * dt_ / engine;
     vehicle_.engine_speed = AngularVelocity::from_raw(std::max(speed, Real{}).raw);
     for (std::size_t i = 0; i < count(); ++i)
       torques[i] = share > Real{} ? through * gear * (turnings_[i].drive / share) : Real{};
@@ -189,8 +188,8 @@ class DriveTrain {
 
   [[nodiscard]] Real full_torque(Real part) const {
     const Real at = clamp_real(part, Real{}, k_real_one) * Real::ratio(k_torque_points - 1, 1);
-    const auto low = std::min<std::size_t>(static_cast<std::size_t>(at.raw >> 32),
-                                           k_torque_points - 2);
+    const auto low =
+        std::min<std::size_t>(static_cast<std::size_t>(at.raw >> 32), k_torque_points - 2);
     const Real rest = at - Real::ratio(static_cast<std::int64_t>(low), 1);
     const Real a = Real::of(vehicle_.torque[low]), b = Real::of(vehicle_.torque[low + 1]);
     return a + (b - a) * rest;
@@ -223,8 +222,8 @@ void shift(VehicleRecord& vehicle) {
     return;
   }
   const bool chooses = vehicle.is_automatic() && vehicle.wanted_gear > 0;
-  const std::int32_t gear = chooses ? automatic_gear(vehicle)
-                                    : std::clamp(vehicle.wanted_gear, -1, top_gear(vehicle));
+  const std::int32_t gear =
+      chooses ? automatic_gear(vehicle) : std::clamp(vehicle.wanted_gear, -1, top_gear(vehicle));
   if (gear == vehicle.gear) return;
   vehicle.gear = gear;
   vehicle.shifting = vehicle.shift_ticks;

@@ -32,9 +32,7 @@ struct Real {
 
   friend constexpr auto operator<=>(const Real&, const Real&) = default;
   friend constexpr Real operator+(Real a, Real b) { return {raw::saturating_add(a.raw, b.raw)}; }
-  friend constexpr Real operator-(Real a) {
-    return {a.raw == INT64_MIN ? INT64_MAX : -a.raw};
-  }
+  friend constexpr Real operator-(Real a) { return {a.raw == INT64_MIN ? INT64_MAX : -a.raw}; }
   friend constexpr Real operator-(Real a, Real b) { return a + -b; }
   friend constexpr Real operator*(Real a, Real b) {
     return {saturate_to_int64(round_shift(multiply_wide(a.raw, b.raw), 32))};

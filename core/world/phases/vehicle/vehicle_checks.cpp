@@ -29,7 +29,8 @@ bool is_share(Unit x) {
 
 bool is_valid(const Axle& axle) {
   constexpr Length k_cm = Length::from_ratio(1, 100), k_far = Length::from_integer(32);
-  const bool is_placed = std::max({abs(axle.mount.x), abs(axle.mount.y), abs(axle.mount.z)}) <= k_far;
+  const bool is_placed =
+      std::max({abs(axle.mount.x), abs(axle.mount.y), abs(axle.mount.z)}) <= k_far;
   const bool has_wheels =
       is_between(axle.half_track, Length{}, Length::from_integer(16)) &&
       is_between(axle.radius, k_cm * 5, Length::from_integer(4)) &&
@@ -46,7 +47,8 @@ bool is_valid(const Axle& axle) {
 
 bool is_valid(const Tyre& tyre) {
   constexpr Unit k_least = Unit::from_ratio(1, 50), k_one = Unit::from_integer(1);
-  return is_between(tyre.peak_slip, k_least, k_one) && is_between(tyre.peak_angle, k_least, k_one) &&
+  return is_between(tyre.peak_slip, k_least, k_one) &&
+         is_between(tyre.peak_angle, k_least, k_one) &&
          is_between(tyre.relaxation, Length::from_ratio(1, 10), Length::from_integer(4)) &&
          is_share(tyre.rolling_resistance);
 }
@@ -70,15 +72,15 @@ bool is_valid(const Gearbox& gearbox) {
 }
 
 AxleRecord axle_record_of(const Axle& axle) {
-  return {axle.mount,     axle.half_track, axle.radius, axle.travel,   axle.frequency,
-          axle.damping_ratio, axle.anti_roll,  axle.max_steer, axle.drive, axle.friction,
-          axle.brake,     axle.handbrake,  axle.differential_lock};
+  return {axle.mount,         axle.half_track, axle.radius,           axle.travel, axle.frequency,
+          axle.damping_ratio, axle.anti_roll,  axle.max_steer,        axle.drive,  axle.friction,
+          axle.brake,         axle.handbrake,  axle.differential_lock};
 }
 
 Axle axle_of(const AxleRecord& axle) {
-  return {axle.mount,     axle.half_track, axle.radius, axle.travel,   axle.frequency,
-          axle.damping_ratio, axle.anti_roll,  axle.max_steer, axle.drive, axle.brake,
-          axle.handbrake, axle.differential_lock, axle.friction};
+  return {axle.mount,         axle.half_track,        axle.radius,    axle.travel, axle.frequency,
+          axle.damping_ratio, axle.anti_roll,         axle.max_steer, axle.drive,  axle.brake,
+          axle.handbrake,     axle.differential_lock, axle.friction};
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ struct Spring {
   Real stiffness, damping;
 };
 
-// The mass that stands on each wheel of an axle: of two axles by the lever of the centre of mass, of
-// others by their number.
+// The mass that stands on each wheel of an axle: of two axles by the lever of the centre of mass,
+// of others by their number.
 Real mass_on_wheel(const VehicleRecord& vehicle, const Chassis& chassis, Real centre,
                    std::size_t axle) {
   const Real half{chassis.mass.raw / 2};
@@ -65,8 +65,7 @@ class VehicleTick {
   [[nodiscard]] std::size_t count() const { return std::size_t{2} * vehicle_.axle_count; }
 
   void load_wheels() {
-    const Vec3<Position> apart =
-        world_.bodies[chassis_.body].position - chassis_.frame.position;
+    const Vec3<Position> apart = world_.bodies[chassis_.body].position - chassis_.frame.position;
     const Real centre = dot_real(Real3::of(apart), Real3::of(chassis_.axes.x));
     for (std::size_t axle = 0; axle < vehicle_.axle_count; ++axle) {
       const AxleRecord& record = vehicle_.axles[axle];

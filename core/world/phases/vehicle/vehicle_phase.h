@@ -12,7 +12,8 @@ struct VehiclePhase {
   void (*drive)(World::Impl& world);
 };
 
-/// The phase of a program that links the command; null in others, which refuse states with vehicles.
+/// The phase of a program that links the command; null in others, which refuse states with
+/// vehicles.
 extern const VehiclePhase* linked_vehicle_phase;
 [[nodiscard]] const VehiclePhase& vehicle_phase();
 

@@ -46,8 +46,7 @@ Touch cast_wheel(const WorldData& world, const VehicleRecord& vehicle, const Cha
                  std::size_t wheel) {
   const AxleRecord& axle = vehicle.axles[wheel / 2];
   const Vec3<Position> top =
-      chassis.frame.position +
-      rounded<Position>(rotate(chassis.axes, highest_centre(axle, wheel)));
+      chassis.frame.position + rounded<Position>(rotate(chassis.axes, highest_centre(axle, wheel)));
   const Real radius = Real::of(axle.radius), travel = Real::of(axle.travel);
   const Real3 up = Real3::of(chassis.axes.y);
   const Vec3<Position> start = top + (up * radius).as<Position>();
@@ -56,8 +55,8 @@ Touch cast_wheel(const WorldData& world, const VehicleRecord& vehicle, const Cha
   filter.ignore = world.handle_of(chassis.body);
   if (vehicle.casts_spheres()) {
     const Real way = travel + radius;
-    const ShapeHit hit =
-        first_hit(world, {Shape::sphere(axle.radius), {start, {}}, (up * -way).as<Length>()}, filter);
+    const ShapeHit hit = first_hit(
+        world, {Shape::sphere(axle.radius), {start, {}}, (up * -way).as<Length>()}, filter);
     return {hit.body, hit.point, hit.normal, Real::of(hit.fraction) * way - radius};
   }
   const Real way = travel + radius + radius;
@@ -78,7 +77,9 @@ Real3 turning_of(const WorldData& world, std::uint32_t body) {
   if (record.spin == Vec3<Velocity>{}) return {};
   const Vec3<Velocity> w =
       surface_velocity(inverse_inertia(record, world.cache.rotation(body)), record.spin);
-  const auto part = [&](Velocity v) { return Real{raw::scale_binary(v.raw, -record.scale_exponent)}; };
+  const auto part = [&](Velocity v) {
+    return Real{raw::scale_binary(v.raw, -record.scale_exponent)};
+  };
   return {part(w.x), part(w.y), part(w.z)};
 }
 

@@ -246,7 +246,8 @@ LKS_API lks_status lks_set_surface_rule(lks_world* world, uint32_t tag_a, uint32
 LKS_API lks_status lks_surface_rule_get(const lks_world* world, uint32_t tag_a, uint32_t tag_b,
                                         uint32_t* has_surface, lks_pair_surface* surface);
 /* A static or kinematic body that stops others from one side only: the direction points out of its
- * front, in the axes of its shape; contacts hold within 1 … 90 degrees of it. Zero: from every side. */
+ * front, in the axes of its shape; contacts hold within 1 … 90 degrees of it. Zero: from every
+ * side. */
 LKS_API lks_status lks_set_one_way(lks_world* world, lks_body body, const lks_unit3* direction,
                                    uint32_t tolerance);
 LKS_API lks_status lks_one_way_get(const lks_world* world, lks_body body, lks_unit3* direction,

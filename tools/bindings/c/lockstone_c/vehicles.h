@@ -13,16 +13,16 @@ enum { LKS_WHEEL_RAY = 0, LKS_WHEEL_SPHERE = 1 };
 
 /* Two wheels. Torques are of each wheel, N·m. */
 typedef struct lks_axle {
-  lks_length3 mount;       /* between the wheels' centres where they are highest */
-  lks_length half_track;   /* from there to a wheel */
-  lks_length radius;       /* 5 cm … 4 m */
-  lks_length travel;       /* way of a wheel down, 1 cm … 4 m */
-  lks_number frequency;    /* Hz, of the mass on a wheel, 0.2 … 10 */
+  lks_length3 mount;        /* between the wheels' centres where they are highest */
+  lks_length half_track;    /* from there to a wheel */
+  lks_length radius;        /* 5 cm … 4 m */
+  lks_length travel;        /* way of a wheel down, 1 cm … 4 m */
+  lks_number frequency;     /* Hz, of the mass on a wheel, 0.2 … 10 */
   lks_number damping_ratio; /* 0 … 2 */
-  lks_number anti_roll;    /* stiffness over that of a spring, 0 … 4 */
-  lks_angle max_steer;     /* ±1.2 rad */
-  lks_unit drive;          /* share of the drive's torque, 0 … 1 */
-  lks_unit friction;       /* of the tyres, 0 … 1.99 */
+  lks_number anti_roll;     /* stiffness over that of a spring, 0 … 4 */
+  lks_angle max_steer;      /* ±1.2 rad */
+  lks_unit drive;           /* share of the drive's torque, 0 … 1 */
+  lks_unit friction;        /* of the tyres, 0 … 1.99 */
   lks_force brake;
   lks_force handbrake;
   lks_force differential_lock; /* the most from the faster wheel to the other */
