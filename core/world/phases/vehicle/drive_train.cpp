@@ -24,15 +24,25 @@ Real spin_of(const WheelRecord& wheel) {
   return {wheel.spin.raw};
 }
 
-// One wheel's part in the drive train.
+// The numbers of a wheel that stay through a tick.
 struct Turning {
   Real radius, inertia, drive, brake, lock;
+  Real spin_gain;           // dt / inertia
+  Real kept;                // of the tyre's deflection in a part: 1 / (1 + |V|·dt/σ)
+  Real damping;             // s
+  Real steady_u, steady_w;  // steady slip over slip speed, 1 where the tyre grips best
+  Real slowed;              // by brakes in a part
 };
 
 class DriveTrain {
  public:
   DriveTrain(VehicleRecord& vehicle, std::span<const WheelContact> contacts, Real dt)
-      : vehicle_(vehicle), contacts_(contacts), dt_(dt) {
+      : vehicle_(vehicle),
+        contacts_(contacts),
+        dt_(dt),
+        inverse_best_u_(k_real_one / (Real::of(vehicle.relaxation) * Real::of(vehicle.peak_slip))),
+        inverse_best_w_(k_real_one /
+                        (Real::of(vehicle.relaxation) * Real::of(vehicle.peak_angle))) {
     for (std::size_t i = 0; i < count(); ++i)
       turnings_[i] = turning_of(i);
   }
@@ -67,6 +77,13 @@ class DriveTrain {
                            (Real::of(vehicle_.peak_slip) * Real::of(vehicle_.relaxation));
     const Real least = stiffness * (turning.radius * dt_) * (turning.radius * dt_);
     turning.inertia = std::max(Real::of(vehicle_.wheel_inertia), least);
+    turning.spin_gain = dt_ / turning.inertia;
+    turning.slowed = turning.brake * turning.spin_gain;
+    const Real speed = abs_real(contacts_[i].speed_ahead), over = std::max(speed, k_least_speed);
+    turning.kept = k_real_one / (k_real_one + speed * dt_ / Real::of(vehicle_.relaxation));
+    turning.damping = k_damping_time * (k_slow / (k_slow + speed));
+    turning.steady_u = k_real_one / (over * Real::of(vehicle_.peak_slip));
+    turning.steady_w = k_real_one / (over * Real::of(vehicle_.peak_angle));
     return turning;
   }
 
@@ -79,42 +96,33 @@ class DriveTrain {
       wheel.slip_along = wheel.slip_across = {};
       return {};
     }
-    const Real length = Real::of(vehicle_.relaxation);
-    const Real along = contact.speed_ahead - spin_of(wheel) * turnings_[i].radius;
-    const Real across = contact.speed_right, speed = abs_real(contact.speed_ahead);
-    const Real keep = k_real_one + speed * dt_ / length;
-    Real u = (Real::of(wheel.slip_along) + along * dt_) / keep;
-    Real w = (Real::of(wheel.slip_across) + across * dt_) / keep;
-    const Real best_u = length * Real::of(vehicle_.peak_slip),
-               best_w = length * Real::of(vehicle_.peak_angle);
-    bound(u, w, best_u, best_w, steady_slip(along, across, speed));
+    const Turning& turning = turnings_[i];
+    const Real along = contact.speed_ahead - spin_of(wheel) * turning.radius;
+    const Real across = contact.speed_right;
+    Real u = (Real::of(wheel.slip_along) + along * dt_) * turning.kept;
+    Real w = (Real::of(wheel.slip_across) + across * dt_) * turning.kept;
+    bound(u, w, length_real(along * turning.steady_u, across * turning.steady_w));
     wheel.slip_along = u.as<Position>();
     wheel.slip_across = w.as<Position>();
-    const Real damping = k_damping_time * (k_slow / (k_slow + speed));
-    const Grip grip = grip_of((u + along * damping) / best_u, (w + across * damping) / best_w);
+    const Grip grip = grip_of((u + along * turning.damping) * inverse_best_u_,
+                              (w + across * turning.damping) * inverse_best_w_);
     const Real most = -(contact.grip * Real::of(wheel.load));
     return {most * grip.along, most * grip.across};
   }
 
-  // The slip at which the deflection would stay, 1 where the tyre grips best.
-  [[nodiscard]] Real steady_slip(Real along, Real across, Real speed) const {
-    const Real over = std::max(speed, k_least_speed);
-    return length_real(along / (over * Real::of(vehicle_.peak_slip)),
-                       across / (over * Real::of(vehicle_.peak_angle)));
-  }
-
-  static void bound(Real& u, Real& w, Real best_u, Real best_w, Real steady) {
+  // `steady`: the slip at which the deflection would stay, 1 where the tyre grips best.
+  void bound(Real& u, Real& w, Real steady) const {
     const Real most = clamp_real(steady, k_kept_slip, k_most_slip);
-    const Real slip = length_real(u / best_u, w / best_w);
+    const Real slip = length_real(u * inverse_best_u_, w * inverse_best_w_);
     if (slip <= most) return;
-    u = u * (most / slip);
-    w = w * (most / slip);
+    const Real part = most / slip;
+    u = u * part;
+    w = w * part;
   }
 
   // Brakes and rolling resistance slow a wheel, and hold it.
-  void turn(WheelRecord& wheel, const Turning& turning, Real torque) const {
-    const Real spin = spin_of(wheel) + torque * dt_ / turning.inertia;
-    const Real slowed = turning.brake * dt_ / turning.inertia;
+  static void turn(WheelRecord& wheel, const Turning& turning, Real torque) {
+    const Real spin = spin_of(wheel) + torque * turning.spin_gain, slowed = turning.slowed;
     const Real left = abs_real(spin) <= slowed ? Real{}
                       : spin > Real{}          ? spin - slowed
                                                : spin + slowed;
@@ -198,6 +206,7 @@ class DriveTrain {
   VehicleRecord& vehicle_;
   std::span<const WheelContact> contacts_;
   Real dt_;
+  Real inverse_best_u_, inverse_best_w_;  // 1 / deflection where the tyre grips best
   std::array<Turning, k_max_wheels> turnings_{};
 };
 

@@ -48,11 +48,11 @@ Grip grip_of(Real along, Real across) {
   constexpr Real k_small{std::int64_t{1} << 26};
   const Real slip = length_real(along, across);
   const Real at = slip > k_small ? slip : k_small;
-  const Real lateral = (across / at) * (across / at), longitudinal = (along / at) * (along / at);
-  const Real part = slip > k_small ? lateral + longitudinal : k_real_one;
-  const Real share = slip > k_small ? longitudinal / part : k_real_one;
+  const Real inverse = k_real_one / at;
+  const Real part = along * inverse, other = across * inverse;
+  const Real share = clamp_real(part * part, Real{}, k_real_one);
   const Real size = value_at(k_along, at) * share + value_at(k_across, at) * (k_real_one - share);
-  return {along / at * size, across / at * size};
+  return {part * size, other * size};
 }
 
 }  // namespace lockstone

@@ -144,7 +144,8 @@ WheelContact find_ground(const WorldData& world, const VehicleRecord& vehicle,
   const Real3 heading = turned(chassis.axes, heading_of(vehicle, wheel));
   contact.ahead = unit(heading - contact.up * dot_real(contact.up, heading));
   contact.right = cross_real(contact.ahead, contact.up);
-  const Real3 velocity = velocity_at(world, chassis.body, touch.point) -
+  const Real3 arm = Real3::of(touch.point - world.bodies[chassis.body].position);
+  const Real3 velocity = chassis.velocity + cross_real(chassis.turning, arm) -
                          velocity_at(world, touch.body.index, touch.point);
   contact.speed_ahead = dot_real(velocity, contact.ahead);
   contact.speed_right = dot_real(velocity, contact.right);
