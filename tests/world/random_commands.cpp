@@ -251,7 +251,7 @@ void CommandDice::fill(DriveVehicle& c) {
   c.chassis = body();
   const Unit one = Unit::from_integer(1);
   c.controls = {number(one), number(one), number(one), number(one), number(one), 1};
-  if (chance(3)) c.controls.gear = random_.between(-2, 9);
+  if (chance(3)) c.controls.gear = static_cast<std::int32_t>(random_.between(-2, 9));
 }
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
