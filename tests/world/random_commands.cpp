@@ -314,7 +314,8 @@ WorldDef crowd_def() {
           .contact_capacity = 512,
           .joint_capacity = 6,
           .substeps = 2,
-          .sleep_ms = 80};
+          .sleep_ms = 80,
+          .vehicle_capacity = 3};
 }
 
 World make_crowd(Random& random) {
