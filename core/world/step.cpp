@@ -2,6 +2,7 @@
 
 #include "core/world/phases/fluids.h"
 #include "core/world/phases/pair_filter.h"
+#include "core/world/phases/vehicle/vehicle_phase.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -10,6 +11,7 @@ StepReport World::Impl::step(PairFilter* only) {
   StepReport report;
   trace.begin_step();
   moved.forget_looks();
+  if (header.vehicle_count != 0) vehicle_phase->drive(*this);
   find_pairs(report, only);
   if (header.fluid_limit != 0) fluid_phase->push(*this);
   narrow.run(pairs, report);

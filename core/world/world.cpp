@@ -22,9 +22,9 @@ constexpr bool is_within(std::uint32_t value, std::uint32_t low, std::uint32_t h
 bool is_valid(const WorldDef& def) {
   return is_within(def.body_capacity, 1, 1U << 20) && is_within(def.pair_capacity, 1, 1U << 24) &&
          is_within(def.contact_capacity, 1, 1U << 24) && def.joint_capacity <= 1U << 20 &&
-         def.converged_contacts <= 1U << 16 && is_within(def.tick_rate, 10, 480) &&
-         is_within(def.substeps, 1, 16) && def.sleep_ms <= 60'000 &&
-         def.sleep_distance >= Length::from_ratio(1, 1000) &&
+         def.converged_contacts <= 1U << 16 && def.vehicle_capacity <= k_max_vehicles &&
+         is_within(def.tick_rate, 10, 480) && is_within(def.substeps, 1, 16) &&
+         def.sleep_ms <= 60'000 && def.sleep_distance >= Length::from_ratio(1, 1000) &&
          def.sleep_distance <= Length::from_integer(1) && is_valid_gravity(def.gravity) &&
          def.speed_limit >= Velocity::from_integer(1) && def.speed_limit <= k_speed_limit &&
          def.broad_phase <= BroadPhaseKind::sweep_and_prune;
@@ -49,6 +49,7 @@ std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
     writer.put(def.gravity[i].raw);
   writer.put(def.speed_limit.raw);
   writer.put(assets);
+  if (def.vehicle_capacity != 0) writer.put(def.vehicle_capacity);
   LKS_CHECK(writer.ok());
   return hash64(writer.written());
 }

@@ -174,6 +174,65 @@ TEST_F(CommandsThroughC, ChangesOfABodyGiveTheSameState) {
   step(20);
 }
 
+TEST_F(CommandsThroughC, RulesGiveTheSameState) {
+  const PairSurface ice{.friction = 0.01_r, .restitution = 0.5_r, .rolling_resistance = {}};
+  const lks_pair_surface raw{ice.friction.raw, ice.restitution.raw, 0};
+  const lks_body ball = c::id_of(ball_), box = c::id_of(box_), lift = c::id_of(lift_);
+  expect_same(world_->apply(SetPairRule{ball_, box_, {.collides = false}}),
+              lks_set_pair_rule(twin_, ball, box, 0, nullptr), "ignored");
+  expect_same(world_->apply(SetPairRule{lift_, box_, {.surface = ice}}),
+              lks_set_pair_rule(twin_, lift, box, 1, &raw), "surface of a pair");
+  expect_same(world_->apply(SetSurfaceRule{0, 7, ice}), lks_set_surface_rule(twin_, 0, 7, &raw),
+              "surface of tags");
+  const Vec3<Unit> up{{}, Unit::from_integer(1), {}};
+  const lks_unit3 raw_up = c::raw_of(up);
+  expect_same(world_->apply(SetOneWay{lift_, {.direction = up, .tolerance = 30}}),
+              lks_set_one_way(twin_, lift, &raw_up, 30), "one way");
+  expect_same(world_->apply(SetOneWay{box_, {.direction = up}}),
+              lks_set_one_way(twin_, box, &raw_up, 60), "a dynamic body");
+  step(20);
+  lks_pair_surface read{};
+  uint32_t collides = 0, has_surface = 0, tolerance = 0;
+  ASSERT_EQ(lks_pair_rule_get(twin_, box, lift, &collides, &has_surface, &read), LKS_OK);
+  EXPECT_EQ(collides, 1U);
+  EXPECT_EQ(has_surface, 1U);
+  EXPECT_EQ(read.friction, ice.friction.raw);
+  ASSERT_EQ(lks_surface_rule_get(twin_, 7, 0, &has_surface, &read), LKS_OK);
+  EXPECT_EQ(read.restitution, ice.restitution.raw);
+  lks_unit3 direction{};
+  ASSERT_EQ(lks_one_way_get(twin_, lift, &direction, &tolerance), LKS_OK);
+  EXPECT_EQ(c::vec<Unit>(direction), up);
+  EXPECT_EQ(tolerance, 30U);
+}
+
+TEST_F(CommandsThroughC, AVehicleGivesTheSameState) {
+  const VehicleDef car = make_car(3_m, 0.8_m, -0.25_m, Torque::from_integer(300));
+  lks_vehicle_def raw{};
+  ASSERT_EQ(lks_make_car(Length(3_m).raw, Length(0.8_m).raw, Length(-0.25_m).raw,
+                         Torque::from_integer(300).raw, &raw, sizeof raw),
+            LKS_OK);
+  const lks_body box = c::id_of(box_);
+  expect_same(world_->apply(SetVehicle{box_, car}), lks_set_vehicle(twin_, box, &raw), "vehicle");
+  lks_vehicle_controls controls;
+  ASSERT_EQ(lks_vehicle_controls_init(&controls, sizeof controls), LKS_OK);
+  controls.throttle = Unit::from_integer(1).raw;
+  controls.steer = Unit::from_ratio(1, 3).raw;
+  const VehicleControls same{.throttle = Unit::from_integer(1), .steer = Unit::from_ratio(1, 3)};
+  expect_same(world_->apply(DriveVehicle{box_, same}), lks_drive_vehicle(twin_, box, &controls),
+              "controls");
+  expect_same(world_->apply(DriveVehicle{ball_, same}),
+              lks_drive_vehicle(twin_, c::id_of(ball_), &controls), "no chassis");
+  step(100);
+  lks_vehicle_view view{};
+  view.size = sizeof view;
+  ASSERT_EQ(lks_vehicle_get(twin_, box, &view), LKS_OK);
+  EXPECT_EQ(view.wheel_count, 4U);
+  EXPECT_EQ(view.engine_speed, vehicle_of(*world_, box_)->engine_speed.raw);
+  EXPECT_EQ(view.wheels[3].load, vehicle_of(*world_, box_)->wheels[3].load.raw);
+  expect_same(world_->apply(SetVehicle{box_, {}}), lks_set_vehicle(twin_, box, nullptr), "removed");
+  EXPECT_EQ(lks_vehicle_get(twin_, box, &view), LKS_INVALID_ARGUMENT);
+}
+
 TEST_F(CommandsThroughC, AFluidGivesTheSameState) {
   Fluid water{.surface = {1_m, 2_m, 3_m}, .size = {40_m, 9_m, 30_m}};
   water.density = Density::from_integer(1000);

@@ -19,6 +19,7 @@ class TwinWorlds : public ::testing::Test {
     def_.tick_rate = 50;
     def_.substeps = 5;
     def_.sleep_ms = 700;
+    def_.vehicle_capacity = 2;
     def_.gravity = {{}, Acceleration::from_integer(-9), Acceleration::from_integer(1)};
   }
 

@@ -22,7 +22,7 @@ FLOORS = {
     "dynamics": ["state", "body", "islands", "contact", "joint", "stack", "problem", "linkage/system",
                  "linkage/rows", "linkage/locks", "linkage/cluster", "linkage", "direct", "impact",
                  "step/input", "step/islands", "step/contacts", "step/limits", "step"],
-    "world": ["derived", "debug", "state", "data", "phases", "sleep", "phases/narrow", "phases/motion",
+    "world": ["derived", "debug", "state", "data", "phases", "phases/vehicle", "sleep", "phases/narrow", "phases/motion",
               "commands", "query", "history", ""],
     "net": ["wire", "security", "transport", "transport/udp", "transport/enet", "routing", "session",
             "session/client", "session/server/data", "session/server/desync", "session/server/leaving",
@@ -44,7 +44,7 @@ PUBLIC_MODULES = {
     "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "load_asset.h", "material.h",
                  "mesh.h", "shape.h"],
     "collision": ["collision.h"],
-    "dynamics": ["body.h", "fluid.h", "joint.h"],
+    "dynamics": ["body.h", "fluid.h", "joint.h", "rules.h", "vehicle.h"],
     "world": ["character.h", "command.h", "contacts.h", "debug_draw.h", "event.h", "predicted_events.h", "profile.h", "query.h", "radial_impulse.h", "rollback_history.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],
 }
 # For tools and tests only, so it sees everything and no library may include it.

@@ -75,6 +75,11 @@ Surface CommandDice::surface() {
   return surface;
 }
 
+PairSurface CommandDice::pair_surface() {
+  const Coefficient friction = size_of(number(Coefficient(1_r)));
+  return {friction, size_of(number(Coefficient(1_r))), {}};
+}
+
 EventSettings CommandDice::events() {
   EventSettings settings{!chance(4), {}};
   if (chance(2)) settings.hit_speed = size_of(number(SolverVelocity::from_integer(2)));
@@ -218,6 +223,36 @@ void CommandDice::fill(SetFluid& c) {
   c.fluid.linear_drag = size_of(number(Rate::from_integer(2)));
   c.fluid.flow = vector(Velocity(3_mps));
 }
+void CommandDice::fill(SetPairRule& c) {
+  c.a = body();
+  c.b = body();
+  c.rule.collides = chance(2);
+  if (chance(2)) c.rule.surface = pair_surface();
+}
+void CommandDice::fill(SetSurfaceRule& c) {
+  c.tag_a = static_cast<std::uint32_t>(random_.below(3));
+  c.tag_b = static_cast<std::uint32_t>(random_.below(3));
+  if (!chance(3)) c.surface = pair_surface();
+}
+void CommandDice::fill(SetOneWay& c) {
+  c.body = body();
+  if (!chance(3)) c.one_way.direction = {number(Unit(1_r)), Unit(1_r), {}};
+  c.one_way.tolerance = static_cast<std::uint8_t>(random_.below(goes_wild() ? 256 : 91));
+}
+void CommandDice::fill(SetVehicle& c) {
+  c.chassis = body();
+  if (chance(4)) return;
+  c.def = make_car(2.4_m, 0.7_m, {}, Torque::from_integer(300));
+  if (goes_wild()) c.def->axle_count = static_cast<std::uint32_t>(random_.below(5));
+  if (goes_wild()) c.def->axles[0].radius = number(Length(1_m));
+  if (goes_wild()) c.def->engine.max_speed = number(AngularVelocity::from_integer(9000));
+}
+void CommandDice::fill(DriveVehicle& c) {
+  c.chassis = body();
+  const Unit one = Unit::from_integer(1);
+  c.controls = {number(one), number(one), number(one), number(one), number(one), 1};
+  if (chance(3)) c.controls.gear = static_cast<std::int32_t>(random_.between(-2, 9));
+}
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
 }
@@ -279,7 +314,8 @@ WorldDef crowd_def() {
           .contact_capacity = 512,
           .joint_capacity = 6,
           .substeps = 2,
-          .sleep_ms = 80};
+          .sleep_ms = 80,
+          .vehicle_capacity = 3};
 }
 
 World make_crowd(Random& random) {

@@ -39,6 +39,7 @@ class CommandDice {
   [[nodiscard]] Quat turn();
   [[nodiscard]] Frame frame();
   [[nodiscard]] Surface surface();
+  [[nodiscard]] PairSurface pair_surface();
   [[nodiscard]] EventSettings events();
   [[nodiscard]] BodyDef body_def();
   [[nodiscard]] std::uint8_t axis();

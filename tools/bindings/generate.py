@@ -14,7 +14,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 HEADERS = sorted((HERE / "c/lockstone_c").glob("*.h")) + [HERE.parent / "tool/include/lockstone/game_abi.h"]
 # The WebAssembly of tools/web has these: no sessions, no functions of the caller's.
 WEB_HEADERS = [HERE / f"c/lockstone_c/{name}.h" for name in
-               ("base", "units", "assets", "world", "bodies", "joints", "events", "queries", "state")]
+               ("base", "units", "assets", "world", "bodies", "joints", "vehicles", "events", "queries",
+                "state")]
 WEB_HEADERS.append(HERE.parent / "web/native/lockstone_web.h")
 NOTE = "Written by tools/bindings/generate.py from the C headers, which document each declaration."
 

@@ -57,6 +57,7 @@ WorldDef random_def(Random& random) {
   WorldDef def;
   def.body_capacity = 28;
   def.joint_capacity = 24;
+  def.vehicle_capacity = 3;
   def.pair_capacity = chance(random, 10) ? 20 : 2048;
   def.contact_capacity = chance(random, 10) ? 10 : 1024;
   def.tick_rate = pick(random, k_rates);
@@ -375,6 +376,61 @@ void drive_changes(World& world, std::uint64_t seed) {
   (void)world.apply(SetFluid{random.below(2), fluid});
 }
 
+// Cars of any kind, on bodies of any kind, drawn apart.
+void drive_vehicles(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 9)));
+  if (!chance(random, 12)) return;
+  const BodyHandle body = any_body(world, random);
+  const auto share = [&] { return Unit::from_ratio(random.between(-100, 100), 100); };
+  if (chance(random, 2)) {
+    const std::int32_t gear = random.between(-1, 8);
+    return (void)world.apply(
+        DriveVehicle{body, {share(), share(), share(), share(), share(), gear}});
+  }
+  SetVehicle command{body, {}};
+  if (chance(random, 5)) return (void)world.apply(command);
+  const auto half = [&] {
+    return Length::from_raw(static_cast<std::int32_t>(log_between(random, 1LL << 17, 1LL << 21)));
+  };
+  const Length length = half(), track = half();
+  command.def = make_car(length, track, -half(), Torque::from_integer(random.between(0, 5000)));
+  for (Axle& axle : command.def->axles) {
+    axle.radius = max(half(), Length::from_ratio(1, 20));
+    axle.frequency = Number::from_ratio(random.between(2, 100), 10);
+    axle.damping_ratio = Number::from_ratio(random.between(0, 20), 10);
+    axle.anti_roll = Number::from_ratio(random.between(0, 40), 10);
+    axle.differential_lock = Torque::from_integer(random.between(0, 100'000));
+  }
+  command.def->axle_count = 1 + random.below(3);
+  command.def->gearbox.automatic = chance(random, 2);
+  command.def->cast = static_cast<WheelCast>(random.below(2));
+  (void)world.apply(command);
+}
+
+// Rules about pairs, drawn apart.
+void drive_rules(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 7)));
+  if (!chance(random, 10)) return;
+  const auto coefficient = [&] { return Coefficient::from_ratio(random.between(0, 99), 100); };
+  const PairSurface surface{coefficient(), coefficient(), coefficient()};
+  const BodyHandle body = any_body(world, random);
+  switch (random.below(4)) {
+    case 0:
+      return (void)world.apply(
+          SetPairRule{body, any_body(world, random), {chance(random, 2), surface}});
+    case 1:
+      return (void)world.apply(SetPairRule{body, any_body(world, random), {}});
+    case 2:
+      return (void)world.apply(SetSurfaceRule{random.below(2), random.below(2), surface});
+    default:
+      break;
+  }
+  OneWay one_way;
+  if (!chance(random, 4)) one_way.direction = {coefficient(), coefficient(), coefficient()};
+  one_way.tolerance = static_cast<std::uint8_t>(random.between(1, 90));
+  (void)world.apply(SetOneWay{body, one_way});
+}
+
 }  // namespace
 
 RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims)
@@ -402,6 +458,8 @@ World RandomScene::make(BroadPhaseKind broad_phase) const {
 void RandomScene::drive(World& world) const {
   drive_events(world, seed_);
   drive_changes(world, seed_);
+  drive_rules(world, seed_);
+  drive_vehicles(world, seed_);
   Random random(mix(seed_ ^ mix(world.tick() + 2)));
   if (!chance(random, 4)) return;
   const int commands = random.between(1, 3);

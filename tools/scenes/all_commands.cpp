@@ -146,6 +146,21 @@ Command sample(Tag<SetFluid>, BodyHandle, Random& random) {
   water.density = Density::from_integer(1000);
   return SetFluid{random.below(2), water};
 }
+Command sample(Tag<SetPairRule>, BodyHandle body, Random& random) {
+  return SetPairRule{body, body, {random.below(2) == 0, {}}};
+}
+Command sample(Tag<SetSurfaceRule>, BodyHandle, Random& random) {
+  return SetSurfaceRule{0, 0, PairSurface{Coefficient::from_ratio(random.between(0, 9), 10)}};
+}
+Command sample(Tag<SetOneWay>, BodyHandle body, Random&) {
+  return SetOneWay{body, {.direction = {{}, Unit::from_integer(1), {}}}};
+}
+Command sample(Tag<SetVehicle>, BodyHandle body, Random&) {
+  return SetVehicle{body, make_car(2_m, 0.5_m, {}, Torque::from_integer(100))};
+}
+Command sample(Tag<DriveVehicle>, BodyHandle body, Random&) {
+  return DriveVehicle{body, {.throttle = Unit::from_integer(1)}};
+}
 Command sample(Tag<WakeBody>, BodyHandle body, Random&) {
   return WakeBody{body};
 }

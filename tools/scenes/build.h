@@ -65,6 +65,8 @@ extern const Scene k_crowd;                                              // crow
 extern const Scene k_arch, k_cards;                                      // masonry.cpp
 extern const Scene k_boats;                                              // water.cpp
 extern const Scene k_explosion;                                          // blast.cpp
+extern const Scene k_one_way;                                            // one_way.cpp
+extern const Scene k_race;                                               // race.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp
 

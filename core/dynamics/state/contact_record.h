@@ -15,7 +15,8 @@ namespace lockstone {
 enum ContactFlag : std::uint16_t {
   k_contact_trigger = 1,   // one of the two is a trigger: no points
   k_contact_touching = 2,  // the surfaces met, or pushed, in the last step
-  k_all_contact_flags = k_contact_trigger | k_contact_touching,
+  k_contact_passing = 4,   // through a one-way body: no points
+  k_all_contact_flags = k_contact_trigger | k_contact_touching | k_contact_passing,
 };
 
 /// The state of one contact point between ticks. Impulses are the pair's velocity jump,
@@ -61,6 +62,11 @@ struct ContactRecord {
     return {};
   }
   [[nodiscard]] bool is_trigger() const { return (flags & k_contact_trigger) != 0; }
+  [[nodiscard]] bool is_passing() const { return (flags & k_contact_passing) != 0; }
+  /// Whether the contact pushes nothing: it has no points.
+  [[nodiscard]] bool is_inert() const {
+    return (flags & (k_contact_trigger | k_contact_passing)) != 0;
+  }
   [[nodiscard]] bool is_touching() const { return (flags & k_contact_touching) != 0; }
 };
 

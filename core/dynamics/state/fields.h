@@ -52,6 +52,10 @@ constexpr std::string_view unit_of(NewtonMetre) {
   return "N m";
 }
 
+constexpr std::string_view unit_of(KilogramMetre2) {
+  return "kg m^2";
+}
+
 template <class T>
 inline constexpr FieldFormat k_format_of{T::frac_bits, unit_of(typename T::Unit{})};
 

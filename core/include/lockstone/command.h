@@ -8,6 +8,8 @@
 #include <lockstone/body.h>
 #include <lockstone/fluid.h>
 #include <lockstone/joint.h>
+#include <lockstone/rules.h>
+#include <lockstone/vehicle.h>
 
 namespace lockstone {
 
@@ -220,6 +222,42 @@ struct SetFluid {
   Fluid fluid{};
 };
 
+/// How two bodies treat each other, until one of them is destroyed; the default rule removes
+/// theirs. Wakes both. capacity_exhausted beyond k_max_pair_rules.
+struct SetPairRule {
+  BodyHandle a{};
+  BodyHandle b{};
+  PairRule rule{};
+};
+
+/// The surface of all contacts between surfaces with these tags, in either order; without a value
+/// they combine again. Wakes every body. capacity_exhausted beyond k_max_surface_rules.
+struct SetSurfaceRule {
+  std::uint32_t tag_a = 0;
+  std::uint32_t tag_b = 0;
+  std::optional<PairSurface> surface{};
+};
+
+/// Lets a static or kinematic body stop others from one side only. `SetMotionType` to or from
+/// dynamic ends it.
+struct SetOneWay {
+  BodyHandle body{};
+  OneWay one_way{};
+};
+
+/// Makes a dynamic body the chassis of a vehicle that stands still, or without a definition takes
+/// its wheels away. capacity_exhausted beyond WorldDef::vehicle_capacity.
+struct SetVehicle {
+  BodyHandle chassis{};
+  std::optional<VehicleDef> def{};
+};
+
+/// Until the next one. invalid_argument for a body that is no chassis.
+struct DriveVehicle {
+  BodyHandle chassis{};
+  VehicleControls controls{};
+};
+
 // clang-format off
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
@@ -230,7 +268,8 @@ struct SetFluid {
   X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis) \
   X(SetEvents) \
   X(SetMotionType) X(SetShape) X(SetMassData) X(SetEnabled) \
-  X(SetFluid)
+  X(SetFluid) X(SetPairRule) X(SetSurfaceRule) X(SetOneWay) \
+  X(SetVehicle) X(DriveVehicle)
 // clang-format on
 
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name

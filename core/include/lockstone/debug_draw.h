@@ -96,7 +96,7 @@ class DebugDraw {
  public:
   virtual ~DebugDraw() = default;
 
-  virtual void draw_shape(const DebugShape&) {}      ///< each body
+  virtual void draw_shape(const DebugShape&) {}      ///< each body; wheels as spheres
   virtual void draw_bounds(const DebugBounds&) {}    ///< each body
   virtual void draw_mass(const DebugMass&) {}        ///< each dynamic body
   virtual void draw_contact(const DebugContact&) {}  ///< each contact

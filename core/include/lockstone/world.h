@@ -28,6 +28,7 @@
 #include <lockstone/status.h>
 #include <lockstone/tasks.h>
 #include <lockstone/vector_math.h>
+#include <lockstone/vehicle.h>
 
 namespace lockstone {
 
@@ -52,6 +53,7 @@ struct WorldDef {
   BroadPhaseKind broad_phase{};  ///< changes no result, so peers may differ in it
   Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};  ///< m/s²
   Velocity speed_limit = k_speed_limit;  ///< of every body, 1 … 500 m/s
+  std::uint32_t vehicle_capacity = 0;    ///< 0 … k_max_vehicles
 
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
 };
@@ -346,6 +348,8 @@ class World {
   friend class CommandExplainer;
   friend class WorldContacts;
   friend class WorldFluids;
+  friend class WorldRules;
+  friend class WorldVehicles;
   friend class RollbackHistory;
   friend Transform pose_of(const World& world, BodyHandle body);
   explicit World(std::unique_ptr<Impl> impl);

@@ -49,6 +49,8 @@ void set_solid(BodyRecord& record, const ShapeProperties& properties);
 /// Of a dynamic body; without moments those of `set_solid` stay.
 void set_mass_data(BodyRecord& record, const MassData& data);
 
+[[nodiscard]] bool is_valid(const PairSurface& surface);
+
 /// BodyLock bits.
 [[nodiscard]] std::uint8_t locks_of(const AxisLocks& locks);
 [[nodiscard]] AxisLocks axis_locks(std::uint8_t bits);

@@ -11,6 +11,7 @@
 #include "core/math/rotation_log.h"
 #include "core/world/commands/command_checks.h"
 #include "core/world/commands/command_executor.h"
+#include "core/world/commands/rule_changes.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/world_impl.h"
 
@@ -141,6 +142,8 @@ Status BodyRegistry::destroy(BodyHandle body) {
   const std::uint32_t index = body.index;
   waking_.disturb(index);
   joints_.destroy_all_of(index);
+  forget_rules_of(world_, index);
+  forget_vehicle_of(world_, index);
   flags_.forget(index);
   drop_contacts_of(index);
   world_.broad_phase.remove(index);

@@ -185,6 +185,12 @@ void check(RefusalFinder& find, const EventSettings& settings) {
   find.within("hit_speed", settings.hit_speed, SolverVelocity{}, k_most_hit_speed, "m/s");
 }
 
+void check(RefusalFinder& find, const PairSurface& surface) {
+  find.within("surface.friction", surface.friction, Coefficient{}, k_most_friction);
+  find.within("surface.restitution", surface.restitution, Coefficient{}, k_one);
+  find.within("surface.rolling_resistance", surface.rolling_resistance, Coefficient{}, k_one);
+}
+
 void check(RefusalFinder& find, const Fluid& fluid) {
   constexpr Position k_least = Position::from_raw(1);
   find.within("fluid.surface", fluid.surface, k_world_limit, "m");
@@ -236,6 +242,7 @@ Refusal World::explain(const WorldDef& def) {
   find.within("pair_capacity", def.pair_capacity, 1U, 1U << 24);
   find.within("contact_capacity", def.contact_capacity, 1U, 1U << 24);
   find.within("joint_capacity", def.joint_capacity, 0U, 1U << 20);
+  find.within("vehicle_capacity", def.vehicle_capacity, 0U, k_max_vehicles);
   find.within("converged_contacts", def.converged_contacts, 0U, 1U << 16);
   find.within("tick_rate", std::uint32_t{def.tick_rate}, 10U, 480U, "ticks/s");
   find.within("substeps", std::uint32_t{def.substeps}, 1U, 16U);

@@ -5,6 +5,7 @@
 
 #include "core/dynamics/body/tick_gain.h"
 #include "core/dynamics/state/limits.h"
+#include "core/dynamics/state/one_way_bits.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/math/rotation_log.h"
 #include "core/world/commands/body_changes.h"
@@ -12,7 +13,9 @@
 #include "core/world/commands/command_executor.h"
 #include "core/world/commands/joint_checks.h"
 #include "core/world/commands/refusal_finder.h"
+#include "core/world/commands/rule_changes.h"
 #include "core/world/derived/quantities.h"
+#include "core/world/phases/vehicle/vehicle_phase.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -200,6 +203,45 @@ class CommandExplainer::Properties {
   void of(const SetFluid& c) {
     on_.find.within("number", c.number, 0U, k_max_fluids - 1);
     if (c.fluid.density != Density{}) check(on_.find, c.fluid);
+  }
+  void of(const SetVehicle& c) {
+    const BodyRecord* record = on_.body(c.chassis);
+    if (record == nullptr || !c.def) return;
+    on_.require_motion(*record, record->is_dynamic(), "dynamic");
+    on_.find.require(is_valid(*c.def), "def", "a number out of its range",
+                     "within the ranges of lockstone/vehicle.h");
+    on_.find.require(
+        can_be_chassis(on_.impl, c.chassis.index), "def", "one more vehicle",
+        "one of WorldDef::vehicle_capacity, " + std::to_string(on_.impl.def.vehicle_capacity));
+  }
+  void of(const DriveVehicle& c) {
+    if (on_.body(c.chassis) == nullptr) return;
+    on_.find.require(find_vehicle(on_.impl, c.chassis.index) != nullptr, "chassis",
+                     "a body without wheels", "the chassis of a vehicle");
+  }
+  void of(const SetOneWay& c) {
+    const BodyRecord* record = on_.body(c.body);
+    if (record == nullptr) return;
+    on_.require_motion(*record, !record->is_dynamic(), "static or kinematic");
+    if (c.one_way.direction != Vec3<Unit>{})
+      on_.find.within("one_way.tolerance", std::uint32_t{c.one_way.tolerance}, 1U,
+                      k_most_one_way_degrees);
+  }
+  void of(const SetPairRule& c) {
+    if (on_.body(c.a) == nullptr || on_.body(c.b) == nullptr) return;
+    on_.find.require(c.a != c.b, "b", "the same body as a", "another body");
+    if (c.rule.surface) check(on_.find, *c.rule.surface);
+    const bool removes = c.rule == PairRule{};
+    on_.find.require(removes || has_room_for_rule(on_.impl, rule_key(c.a.index, c.b.index)), "rule",
+                     "one more than there is room for",
+                     "one of at most " + std::to_string(k_max_pair_rules));
+  }
+  void of(const SetSurfaceRule& c) {
+    if (!c.surface) return;
+    check(on_.find, *c.surface);
+    on_.find.require(has_room_for_surface_rule(on_.impl, rule_key(c.tag_a, c.tag_b)), "surface",
+                     "one more than there is room for",
+                     "one of at most " + std::to_string(k_max_surface_rules));
   }
   void of(const SetGravity& c) {
     on_.find.within("gravity", c.gravity, Acceleration::from_integer(1000), "m/s²");

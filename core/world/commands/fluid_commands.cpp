@@ -62,7 +62,7 @@ Status CommandExecutor::execute(const SetFluid& command) {
   std::uint32_t limit = k_max_fluids;
   while (limit > 0 && !world_.fluids[limit - 1].exists())
     --limit;
-  world_.header.fluid_limit = limit;
+  world_.header.fluid_limit = static_cast<std::uint8_t>(limit);
   world_.fluid_phase = linked_fluid_phase;
   return Status::ok;
 }

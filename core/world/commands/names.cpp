@@ -30,6 +30,10 @@ std::string_view to_string(JointKind kind) {
       "motor",    "six-axis", "pulley", "gear",   "rack"};
   return name_of(k_names, kind, 1);
 }
+std::string_view to_string(WheelCast cast) {
+  constexpr std::array<std::string_view, 2> k_names{"ray", "sphere"};
+  return name_of(k_names, cast);
+}
 std::string_view to_string(AxisMode mode) {
   constexpr std::array<std::string_view, 3> k_names{"locked", "free", "limited"};
   return name_of(k_names, mode);

@@ -11,6 +11,7 @@
 #include <lockstone/fluid.h>
 #include <lockstone/joint.h>
 #include <lockstone/refusal.h>
+#include <lockstone/rules.h>
 
 namespace lockstone {
 
@@ -99,6 +100,7 @@ void check(RefusalFinder& find, const SurfaceMotion& motion);
 void check(RefusalFinder& find, const SpeedLimit& limit);
 void check(RefusalFinder& find, const EventSettings& settings);
 void check(RefusalFinder& find, const Fluid& fluid);
+void check(RefusalFinder& find, const PairSurface& surface);
 void check(RefusalFinder& find, const Shape& shape, const Asset* asset);
 /// Moments of inertia for a mass that is valid.
 void check_moments(RefusalFinder& find, std::string_view field, const MassData& data,

@@ -26,6 +26,7 @@ WorldData::WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet>
              RecordHashes<JointRecord, k_joint_domain>(definition.joint_capacity)} {
   header.gravity = definition.gravity;
   rests.reserve(definition.body_capacity);
+  vehicles.resize(definition.vehicle_capacity);
 }
 
 const BodyRecord* WorldData::find(BodyHandle body) const {
@@ -103,10 +104,14 @@ bool WorldData::are_joined(std::uint32_t a, std::uint32_t b) const {
   return joint_graph.is_exempt(pair_of(a, b));
 }
 
+bool WorldData::are_exempt(std::uint32_t a, std::uint32_t b) const {
+  return are_joined(a, b) || are_ignored(*this, a, b);
+}
+
 bool WorldData::is_obstacle(std::uint32_t body, std::uint32_t other) const {
   const BodyRecord& obstacle = bodies[other];
   return !obstacle.is_trigger() && should_collide(bodies[body].filter(), obstacle.filter()) &&
-         !are_joined(body, other);
+         !are_exempt(body, other);
 }
 
 }  // namespace lockstone

@@ -19,6 +19,8 @@
 #include "core/dynamics/state/contact_record.h"
 #include "core/dynamics/state/joint_record.h"
 #include "core/dynamics/state/time_step.h"
+#include "core/dynamics/state/vehicle_record.h"
+#include "core/world/data/rule_tables.h"
 #include "core/world/debug/profiler.h"
 #include "core/world/derived/body_cache.h"
 #include "core/world/derived/index_set.h"
@@ -40,6 +42,7 @@ struct StoreHashes {
 };
 
 struct FluidPhase;
+struct VehiclePhase;
 
 /// The rest of a body that fluids push in the tick, which the push takes the place of.
 struct SavedRest {
@@ -57,7 +60,13 @@ struct FluidData {
   std::vector<SavedRest> rests;                  // scratch of that phase
 };
 
-struct WorldData : FluidData {
+/// The vehicles of a world.
+struct VehicleData {
+  std::vector<VehicleRecord> vehicles;          // canonical state: the first header.vehicle_count
+  const VehiclePhase* vehicle_phase = nullptr;  // derived: null only without vehicles
+};
+
+struct WorldData : FluidData, RuleTables, VehicleData {
   /// No function but this allocates.
   [[gnu::cold]] WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
@@ -90,6 +99,8 @@ struct WorldData : FluidData {
   [[nodiscard]] std::optional<Pair> exempt_pair(const JointRecord& joint) const;
   /// Whether a joint exempts the two from collision.
   [[nodiscard]] bool are_joined(std::uint32_t a, std::uint32_t b) const;
+  /// Whether a joint or a rule keeps the two from meeting.
+  [[nodiscard]] bool are_exempt(std::uint32_t a, std::uint32_t b) const;
   /// Whether a body's path may end at another, as far as filters and joints decide.
   [[nodiscard]] bool is_obstacle(std::uint32_t body, std::uint32_t other) const;
   /// Lists the joints with an awake body again, if any slept, woke, came or went.
@@ -120,7 +131,19 @@ struct WorldData : FluidData {
 
   template <class F>
   void visit(FluidStore, F&& f) const {
-    f(std::span(fluids).first(std::min(header.fluid_limit, k_max_fluids)));
+    f(std::span(fluids).first(std::min<std::size_t>(header.fluid_limit, k_max_fluids)));
+  }
+  template <class F>
+  void visit(PairRuleStore, F&& f) const {
+    f(pair_rules_of(*this, header));
+  }
+  template <class F>
+  void visit(SurfaceRuleStore, F&& f) const {
+    f(surface_rules_of(*this, header));
+  }
+  template <class F>
+  void visit(VehicleStore, F&& f) const {
+    f(std::span(vehicles).first(std::min<std::size_t>(header.vehicle_count, vehicles.size())));
   }
 
   const WorldDef def;
@@ -145,5 +168,12 @@ struct WorldData : FluidData {
   Profiler profiler;
   Parallel parallel;
 };
+
+/// Whether a rule keeps the two from meeting.
+[[nodiscard]] inline bool are_ignored(const WorldData& world, std::uint32_t a, std::uint32_t b) {
+  if (world.header.pair_rule_count == 0) return false;
+  const PairRuleRecord* rule = find_rule(pair_rules_of(world, world.header), rule_key(a, b));
+  return rule != nullptr && rule->is_ignored();
+}
 
 }  // namespace lockstone

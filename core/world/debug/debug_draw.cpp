@@ -27,6 +27,7 @@ class WorldDrawing {
   explicit WorldDrawing(World::Impl& world) : world_(world) {}
 
   void draw_shapes(DebugDraw& out);
+  void draw_wheels(DebugDraw& out) const;
   void draw_bounds(DebugDraw& out) const;
   void draw_masses(DebugDraw& out) const;
   void draw_contacts(DebugDraw& out);
@@ -49,7 +50,7 @@ void WorldDrawing::find_all_islands() {
     if (world_.bodies[a].is_dynamic() && world_.bodies[b].is_dynamic()) world_.islands.join(a, b);
   };
   world_.for_each_contact([&](const ContactRecord& contact) {
-    if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
+    if (!contact.is_inert()) tie(contact.body_a, contact.body_b);
   });
   for (const JointLink& joint : world_.joint_graph.links())
     tie(joint.body_a, joint.body_b);
@@ -70,6 +71,29 @@ void WorldDrawing::draw_shapes(DebugDraw& out) {
          .asset = world_.cache.asset(i),
          .island = body.is_dynamic() ? world_.handle_of(world_.islands.root(i)) : BodyHandle{},
          .user_data = body.user_data});
+  }
+}
+
+// Wheels are no bodies: spheres with the colours of their chassis.
+void WorldDrawing::draw_wheels(DebugDraw& out) const {
+  for (const VehicleRecord& vehicle :
+       std::span(world_.vehicles).first(world_.header.vehicle_count)) {
+    const std::uint32_t chassis = vehicle.chassis;
+    const BodyRecord& body = world_.bodies[chassis];
+    if (!is_enabled(body)) continue;
+    const Transform frame =
+        shape_pose(world_.cache.asset(chassis), {body.position, body.orientation});
+    const Mat3 rotation = to_matrix(frame.orientation);
+    for (std::size_t i = 0; i < std::size_t{2} * vehicle.axle_count; ++i) {
+      const Vec3<Position> centre =
+          frame.position + rounded<Position>(rotate(rotation, centre_of_wheel(vehicle, i)));
+      out.draw_shape({.body = world_.handle_of(chassis),
+                      .state = state_of(body),
+                      .shape = Shape::sphere(vehicle.axles[i / 2].radius),
+                      .pose = {centre, frame.orientation},
+                      .rotation = rotation,
+                      .user_data = body.user_data});
+    }
   }
 }
 
@@ -124,7 +148,7 @@ void WorldDrawing::draw_contacts(DebugDraw& out) {
   PairScratch& scratch = world_.narrow.scratch();
   Pair collided;
   world_.for_each_contact([&](const ContactRecord& record) {
-    if (record.is_trigger()) return;
+    if (record.is_inert()) return;
     const Pair pair{record.body_a, record.body_b};
     if (pair != collided) {
       collide_bodies(world_.placed(pair.a), world_.placed(pair.b), world_.narrow.margin_of(pair),
@@ -171,6 +195,7 @@ void WorldDrawing::draw_joints(DebugDraw& out) const {
 void World::draw(DebugDraw& out, const DebugDrawOptions& options) const {
   WorldDrawing drawing(*impl_);
   if (options.shapes) drawing.draw_shapes(out);
+  if (options.shapes) drawing.draw_wheels(out);
   if (options.bounds) drawing.draw_bounds(out);
   if (options.masses) drawing.draw_masses(out);
   if (options.contacts) drawing.draw_contacts(out);

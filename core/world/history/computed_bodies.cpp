@@ -23,7 +23,8 @@ void ComputedBodies::choose(WorldData& world, bool has_sleepers, const TickMemor
   most_ = awake - awake / 4;
   count_ = 0;
   all_ = changes_.concern_all() || changes_.bodies().size() > most_ || may_reach_all(world, known);
-  if (all_) return;
+  // Vehicles are driven whole: all bodies are computed again, or none.
+  if (all_ || world.header.vehicle_count != 0) return;
   std::ranges::fill(is_reached_, std::uint8_t{0});
   std::ranges::fill(is_computed_, std::uint8_t{0});
   add_roots(world, known);

@@ -169,6 +169,11 @@ bool write_next_state(const WorldData& world, const ComputedBodies& computed,
   write_joints(world, computed, before, after, to);
   for (std::uint32_t i = 0; i < header.fluid_limit; ++i)
     to.put(world.fluids[i]);
+  for (const PairRuleRecord& rule : pair_rules_of(world, header))
+    to.put(rule);
+  for (const SurfaceRuleRecord& rule : surface_rules_of(world, header))
+    to.put(rule);
+  LKS_ASSERT(header.vehicle_count == 0);  // such a world is computed whole
   next.after.set_size(to.size());
   std::memcpy(next.after.out().data(), &header, sizeof(header));
   return true;

@@ -5,10 +5,12 @@
 namespace lockstone {
 namespace {
 
-bool have_fluids_changed(const WorldData& world, const NativeState<WorldStores>& before) {
-  bool changed = world.header.fluid_limit != before.header.fluid_limit;
-  for (std::uint32_t i = 0; i < world.header.fluid_limit; ++i)
-    changed = changed || !is_same<FluidStore>(world.fluids[i], before, i);
+template <class Store>
+bool has_changed(const WorldData& world, const NativeState<WorldStores>& before) {
+  bool changed = world.header.*Store::k_count != before.header.*Store::k_count;
+  for_each_record<Store>(world, [&](std::uint32_t index, const auto& record) {
+    changed = changed || !is_same<Store>(record, before, index);
+  });
   return changed;
 }
 
@@ -29,11 +31,13 @@ void StateChanges::find(const WorldData& world, const NativeState<WorldStores>& 
   ends_.clear();
   any_ = concern_all_ =
       world.header.tick != before.header.tick || world.header.gravity != before.header.gravity ||
-      have_fluids_changed(world, before);
+      has_changed<FluidStore>(world, before) || has_changed<PairRuleStore>(world, before) ||
+      has_changed<SurfaceRuleStore>(world, before) || has_changed<VehicleStore>(world, before);
   if (concern_all_) return;
   find_bodies(world, before);
   find_contacts(world, before);
   find_joints(world, before);
+  concern_all_ = concern_all_ || (any_ && world.header.vehicle_count != 0);
 }
 
 void StateChanges::find_bodies(const WorldData& world, const NativeState<WorldStores>& before) {

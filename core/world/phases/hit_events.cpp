@@ -104,7 +104,7 @@ void HitEvents::begin() {
   for (std::uint32_t i = 0; i < found_.records.size(); ++i) {
     const ContactRecord& record = found_.records[i];
     if (!hit_bodies.has(record.body_a) && !hit_bodies.has(record.body_b)) continue;
-    if (record.is_trigger()) continue;
+    if (record.is_inert()) continue;
     watched_.push_back(
         {i, hit_speed_of(world_.bodies[record.body_a], world_.bodies[record.body_b])});
   }

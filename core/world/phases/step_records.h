@@ -49,7 +49,7 @@ struct ContactOrigin {
   std::uint32_t part_a = 0;
   std::uint32_t part_b = 0;
   std::uint32_t before = k_new;  // in the contacts of the tick before
-  bool is_trigger = false;
+  std::uint16_t flags = 0;       // ContactFlag of a contact without points
 };
 
 }  // namespace lockstone

@@ -7,6 +7,7 @@
 #include "core/math/block_float.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
+#include "core/world/query/character_obstacles.h"
 
 namespace lockstone {
 namespace {
@@ -55,7 +56,7 @@ bool is_negligible(const Vec3<Length>& v) {
 class Mover {
  public:
   Mover(const World& world, const CharacterDef& def, const Vec3<Position>& position)
-      : world_(world), def_(def), up_(up_of(def)) {
+      : obstacles_(world, def), def_(def), up_(up_of(def)) {
     move_.position = position;
   }
 
@@ -85,12 +86,8 @@ class Mover {
   [[nodiscard]] Vec3<Length> level_part(const Vec3<Length>& v) const {
     return v - upward(height_of(v));
   }
-  [[nodiscard]] Transform pose_at(const Vec3<Position>& position) const {
-    return {position, def_.orientation};
-  }
-
   [[nodiscard]] ShapeHit cast(const Vec3<Position>& from, const Vec3<Length>& motion) const {
-    return world_.cast_shape({def_.shape, pose_at(from), motion}, def_.filter);
+    return obstacles_.cast(from, motion);
   }
 
   // Until the skin is free, the deepest overlaps included: each plane pushes by the rest that the
@@ -98,8 +95,8 @@ class Mover {
   void push_out() {
     std::array<ShapeContact, k_max_planes> contacts;
     for (int round = 0; round < k_max_push_outs; ++round) {
-      const std::size_t count = world_.contacts_of_shape(
-          def_.shape, pose_at(move_.position), def_.skin + k_negligible, contacts, def_.filter);
+      const std::size_t count =
+          obstacles_.contacts(move_.position, def_.skin + k_negligible, contacts);
       Vec3<Length> out{};
       for (std::size_t i = 0; i < count; ++i) {
         const Length separation = rounded<Length>(contacts[i].separation);
@@ -280,7 +277,7 @@ class Mover {
     move_.ground_point = point;
   }
 
-  const World& world_;
+  const CharacterObstacles obstacles_;
   const CharacterDef& def_;
   const Vec3<Unit> up_;
   CharacterMove move_;
@@ -447,8 +444,8 @@ void apply_pushes(World& world, const CharacterDef& character, const CharacterMo
 bool has_room(const World& world, const CharacterDef& character, const Vec3<Position>& position) {
   check(character);
   std::array<ShapeContact, k_max_planes> contacts;
-  const std::size_t count = world.contacts_of_shape(
-      character.shape, {position, character.orientation}, Length{}, contacts, character.filter);
+  const std::size_t count =
+      CharacterObstacles(world, character).contacts(position, Length{}, contacts);
   return std::ranges::none_of(std::span(contacts).first(count), [&](const ShapeContact& contact) {
     return -rounded<Length>(contact.separation) > character.skin;
   });

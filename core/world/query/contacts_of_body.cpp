@@ -107,7 +107,7 @@ std::size_t contacts_of(const World& world, BodyHandle body, std::span<BodyConta
   ContactReader reader(impl);
   std::size_t count = 0;
   const auto visit = [&](const ContactRecord& record) {
-    if (!record.is_touching() || record.is_trigger()) return;
+    if (!record.is_touching() || record.is_inert()) return;
     if (record.body_a != body.index && record.body_b != body.index) return;
     insert_sorted(
         reader.read(record, body.index), out, count,

@@ -7,6 +7,7 @@
 #include "core/dynamics/state/limits.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/query/sorted_results.h"
+#include "core/world/query/world_queries.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -118,16 +119,20 @@ constexpr Unit k_whole_way = Unit::from_integer(1);
 
 }  // namespace
 
-RayHit World::cast_ray(const Vec3<Position>& origin, const Vec3<Length>& translation,
-                       const QueryFilter& filter) const {
+RayHit first_hit(const WorldData& world, const Ray& ray, const QueryFilter& filter) {
   RayHit best;
   Unit limit = k_whole_way;
-  walk_ray(*impl_, {origin, translation}, filter, limit, [&](const RayHit& hit) {
+  walk_ray(world, ray, filter, limit, [&](const RayHit& hit) {
     if (!best.body.is_null() && !is_nearer(hit, best)) return;
     best = hit;
     limit = hit.fraction;
   });
   return best;
+}
+
+RayHit World::cast_ray(const Vec3<Position>& origin, const Vec3<Length>& translation,
+                       const QueryFilter& filter) const {
+  return first_hit(*impl_, Ray{origin, translation}, filter);
 }
 
 bool World::is_ray_blocked(const Vec3<Position>& origin, const Vec3<Length>& translation,
@@ -157,15 +162,19 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> out,
     out[i] = cast_ray(rays[i].origin, rays[i].translation, filter);
 }
 
-ShapeHit World::cast_shape(const ShapeCast& cast, const QueryFilter& filter) const {
+ShapeHit first_hit(const WorldData& world, const ShapeCast& cast, const QueryFilter& filter) {
   ShapeHit best;
   Unit limit = k_whole_way;
-  walk_shape(*impl_, cast, filter, limit, [&](const ShapeHit& hit) {
+  walk_shape(world, cast, filter, limit, [&](const ShapeHit& hit) {
     if (!best.body.is_null() && !is_nearer(hit, best)) return;
     best = hit;
     limit = hit.fraction;
   });
   return best;
+}
+
+ShapeHit World::cast_shape(const ShapeCast& cast, const QueryFilter& filter) const {
+  return first_hit(*impl_, cast, filter);
 }
 
 std::size_t World::cast_shape_all(const ShapeCast& cast, std::span<ShapeHit> out,

@@ -117,7 +117,7 @@ void IslandSleep::join_islands() {
       islands_.mark_driven(a_dynamic ? a : b);
   };
   for (const ContactRecord& contact : world_.contacts.active())
-    if (!contact.is_trigger()) connect(contact.body_a, contact.body_b);
+    if (!contact.is_inert()) connect(contact.body_a, contact.body_b);
   for (const JointLink& joint : world_.joint_graph.awake_links())
     connect(joint.body_a, joint.body_b);
 }

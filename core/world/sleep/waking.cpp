@@ -38,7 +38,7 @@ void Waking::spread_from(std::uint32_t body) {
   world_.contacts.thaw_all_of(body, [&](const ContactRecord& record) {
     thawed_.push_back(record);
     const std::uint32_t other = record.body_a == body ? record.body_b : record.body_a;
-    if (!record.is_trigger() && world_.bodies[other].is_dynamic()) list(other);
+    if (!record.is_inert() && world_.bodies[other].is_dynamic()) list(other);
   });
 }
 

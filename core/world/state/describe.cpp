@@ -33,6 +33,16 @@ class Namer {
   [[nodiscard]] std::string name_of(FluidStore, std::uint32_t, const FluidRecord&) const {
     return {};
   }
+  [[nodiscard]] std::string name_of(PairRuleStore, std::uint32_t, const PairRuleRecord& r) const {
+    return end(r.body_a) + '-' + end(r.body_b);
+  }
+  [[nodiscard]] std::string name_of(VehicleStore, std::uint32_t, const VehicleRecord& v) const {
+    return end(v.chassis);
+  }
+  [[nodiscard]] std::string name_of(SurfaceRuleStore, std::uint32_t,
+                                    const SurfaceRuleRecord& r) const {
+    return std::to_string(r.tag_a) + '-' + std::to_string(r.tag_b);
+  }
 
  private:
   // "17 crate", or "17" of a body without a name.

@@ -45,6 +45,12 @@ bool World::flip_bit(std::string_view store, std::uint64_t object, std::string_v
   }
   if (store == FluidStore::k_name && object < world.header.fluid_limit)
     return flip_in(world.fluids[index], field, bit);
+  if (store == PairRuleStore::k_name && object < world.header.pair_rule_count)
+    return flip_in(world.pair_rules[index], field, bit);
+  if (store == SurfaceRuleStore::k_name && object < world.header.surface_rule_count)
+    return flip_in(world.surface_rules[index], field, bit);
+  if (store == VehicleStore::k_name && object < world.header.vehicle_count)
+    return flip_in(world.vehicles[index], field, bit);
   return false;
 }
 

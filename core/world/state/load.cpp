@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "core/world/phases/fluids.h"
+#include "core/world/phases/vehicle/vehicle_phase.h"
 #include "core/world/state/delta.h"
 #include "core/world/state/snapshot_format.h"
 #include "core/world/state/state_loader.h"
@@ -51,7 +52,14 @@ void StateLoader::load(const WorldHeader& loaded, State&& state) {
   world_.fluids = {};
   for (std::uint32_t i = 0; i < loaded.fluid_limit; ++i)
     state.template read<FluidStore>(i, world_.fluids[i]);
+  for (std::uint32_t i = 0; i < loaded.pair_rule_count; ++i)
+    state.template read<PairRuleStore>(i, world_.pair_rules[i]);
+  for (std::uint32_t i = 0; i < loaded.surface_rule_count; ++i)
+    state.template read<SurfaceRuleStore>(i, world_.surface_rules[i]);
+  for (std::uint32_t i = 0; i < loaded.vehicle_count; ++i)
+    state.template read<VehicleStore>(i, world_.vehicles[i]);
   world_.header = loaded;
+  world_.vehicle_phase = linked_vehicle_phase;
   world_.fluid_phase = linked_fluid_phase;
   const auto read_contacts = [&](std::span<ContactRecord> to) {
     for (std::uint32_t i = 0; i < to.size(); ++i)

@@ -9,6 +9,8 @@
 #include "core/dynamics/state/contact_record.h"
 #include "core/dynamics/state/fluid_record.h"
 #include "core/dynamics/state/joint_record.h"
+#include "core/dynamics/state/rule_records.h"
+#include "core/dynamics/state/vehicle_record.h"
 
 namespace lockstone {
 
@@ -16,6 +18,9 @@ namespace lockstone {
 [[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
 [[nodiscard]] Status validate(const JointRecord& record);
 [[nodiscard]] Status validate(const FluidRecord& record);
+[[nodiscard]] Status validate(const PairRuleRecord& record);
+[[nodiscard]] Status validate(const SurfaceRuleRecord& record);
+[[nodiscard]] Status validate(const VehicleRecord& record);
 
 /// The same with the bodies that a contact is between, or that a joint holds.
 [[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a,

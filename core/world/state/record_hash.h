@@ -21,6 +21,9 @@ inline constexpr std::uint64_t k_body_domain = 1;
 inline constexpr std::uint64_t k_contact_domain = 2;
 inline constexpr std::uint64_t k_joint_domain = 3;
 inline constexpr std::uint64_t k_fluid_domain = 4;
+inline constexpr std::uint64_t k_pair_rule_domain = 5;
+inline constexpr std::uint64_t k_surface_rule_domain = 6;
+inline constexpr std::uint64_t k_vehicle_domain = 7;
 
 /// Calls `hash(bytes)` with the canonical bytes: little-endian in field order, which on a
 /// little-endian machine is the memory.

@@ -1,13 +1,18 @@
 // Validity of a stored state: bytes from anywhere are checked whole before they are used.
 
+#include <algorithm>
+
 #include <lockstone/hash.h>
 
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/body/tick_gain.h"
 #include "core/dynamics/state/limits.h"
+#include "core/dynamics/state/one_way_bits.h"
 #include "core/geometry/convex/shape_properties.h"
+#include "core/world/commands/command_checks.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/phases/fluids.h"
+#include "core/world/phases/vehicle/vehicle_phase.h"
 #include "core/world/state/record_checks.h"
 #include "core/world/state/record_codec.h"
 #include "core/world/state/snapshot_format.h"
@@ -51,7 +56,7 @@ bool has_valid_limits(const BodyRecord& record) {
 // it may be longer than commands allow.
 bool has_valid_notes(const BodyRecord& record) {
   constexpr int k_exponent_bits = 2 * k_gain_exponent_bits;
-  if (!record.is_dynamic()) return !record.is_pushed() && record.union_c == Unit{};
+  if (!record.is_dynamic()) return !record.is_pushed() && are_one_way_bits(record.union_c);
   if (!record.is_pushed()) return true;
   const TickGain gain = tick_gain_of(record);
   return !record.is_asleep() && is_enabled(record) && record.rest_ticks == 0 &&
@@ -142,13 +147,46 @@ Status validate(const FluidRecord& record) {
   return turned && is_valid(fluid_of(record)) ? Status::ok : Status::malformed;
 }
 
+Status validate(const PairRuleRecord& record) {
+  const bool has_flags = record.flags != 0 && (record.flags & ~k_all_pair_rule_flags) == 0;
+  const bool fits =
+      record.has_surface() ? is_valid(record.surface()) : record.surface() == PairSurface{};
+  return record.body_a < record.body_b && has_flags && fits ? Status::ok : Status::malformed;
+}
+
+Status validate(const SurfaceRuleRecord& record) {
+  return record.tag_a <= record.tag_b && is_valid(record.surface()) ? Status::ok
+                                                                    : Status::malformed;
+}
+
+// Its settings and controls are those that a definition makes.
+Status validate(const VehicleRecord& record) {
+  const VehicleDef def = def_of(record);
+  if (record.axle_count != def.axle_count || !is_valid(def)) return Status::malformed;
+  VehicleRecord same = record_of(record.chassis, def);
+  set_controls(same, controls_of(record));
+  for (std::size_t i = 0; i < std::size_t{2} * record.axle_count; ++i)
+    same.wheels[i] = record.wheels[i];
+  same.engine_speed = record.engine_speed;
+  same.gear = record.gear;
+  same.shifting = record.shifting;
+  const bool has_gear = record.gear >= -1 && record.gear <= static_cast<int>(k_max_gears) &&
+                        record.shifting <= record.shift_ticks &&
+                        record.engine_speed >= AngularVelocity{};
+  const bool has_wheels = std::ranges::all_of(record.wheels, [](const WheelRecord& wheel) {
+    return wheel.is_grounded <= 1 && wheel.load >= Force{};
+  });
+  return same == record && has_gear && has_wheels ? Status::ok : Status::malformed;
+}
+
 Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b) {
   const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
   const bool known = (record.flags & ~k_all_contact_flags) == 0;
   const bool trigger = a.is_trigger() || b.is_trigger();
+  const bool passes = record.is_passing() && !trigger && !record.is_touching();
   const bool valid = ordered && known && is_enabled(a) && is_enabled(b) &&
-                     trigger == record.is_trigger() && has_valid_points(record) &&
-                     (!trigger || record.count == 0);
+                     trigger == record.is_trigger() && passes == record.is_passing() &&
+                     has_valid_points(record) && (!record.is_inert() || record.count == 0);
   return valid ? Status::ok : Status::malformed;
 }
 
@@ -216,6 +254,38 @@ Status SnapshotView::check(FluidStore) const {
   if (header.fluid_limit != 0 && linked_fluid_phase == nullptr) return Status::incompatible;
   for (std::uint32_t i = 0; i < header.fluid_limit; ++i)
     if (validate(record<FluidStore>(i)) != Status::ok) return Status::malformed;
+  return Status::ok;
+}
+
+// By key, of bodies that exist.
+Status SnapshotView::check(PairRuleStore) const {
+  for (std::uint32_t i = 0; i < header.pair_rule_count; ++i) {
+    const auto rule = record<PairRuleStore>(i);
+    if (validate(rule) != Status::ok || rule.body_b >= header.body_limit) return Status::malformed;
+    if (!body(rule.body_a).exists() || !body(rule.body_b).exists()) return Status::malformed;
+    if (i > 0 && record<PairRuleStore>(i - 1).key() >= rule.key()) return Status::malformed;
+  }
+  return Status::ok;
+}
+
+Status SnapshotView::check(SurfaceRuleStore) const {
+  for (std::uint32_t i = 0; i < header.surface_rule_count; ++i) {
+    const auto rule = record<SurfaceRuleStore>(i);
+    if (validate(rule) != Status::ok) return Status::malformed;
+    if (i > 0 && record<SurfaceRuleStore>(i - 1).key() >= rule.key()) return Status::malformed;
+  }
+  return Status::ok;
+}
+
+Status SnapshotView::check(VehicleStore) const {
+  if (header.vehicle_count != 0 && linked_vehicle_phase == nullptr) return Status::incompatible;
+  for (std::uint32_t i = 0; i < header.vehicle_count; ++i) {
+    const auto vehicle = record<VehicleStore>(i);
+    if (validate(vehicle) != Status::ok) return Status::malformed;
+    if (vehicle.chassis >= header.body_limit || !body(vehicle.chassis).exists())
+      return Status::malformed;
+    if (i > 0 && record<VehicleStore>(i - 1).key() >= vehicle.key()) return Status::malformed;
+  }
   return Status::ok;
 }
 

@@ -43,6 +43,9 @@ class SnapshotView {
   [[nodiscard]] Status check(ContactStore) const;
   [[nodiscard]] Status check(JointStore) const;
   [[nodiscard]] Status check(FluidStore) const;
+  [[nodiscard]] Status check(PairRuleStore) const;
+  [[nodiscard]] Status check(SurfaceRuleStore) const;
+  [[nodiscard]] Status check(VehicleStore) const;
 
   const AssetSet* assets_ = nullptr;
   StoredRecords<WorldStores> records_;

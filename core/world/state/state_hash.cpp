@@ -24,13 +24,20 @@ Hash128 sum_of(const State& state) {
   return sum;
 }
 
-// Fluids count with the header; where there are none, it is hashed alone.
-std::uint64_t hash_of_header(const WorldData& world) {
-  std::uint64_t hash = hash_record(world.header, 0);
-  for_each_record<FluidStore>(world, [&](std::uint32_t index, const FluidRecord& fluid) {
-    hash += hash_record(fluid, hash_seed<FluidStore>(index));
+template <class Store>
+std::uint64_t sum_of_hashes(const WorldData& world) {
+  std::uint64_t sum = 0;
+  for_each_record<Store>(world, [&](std::uint32_t index, const auto& record) {
+    sum += hash_record(record, hash_seed<Store>(index));
   });
-  return hash;
+  return sum;
+}
+
+// Fluids, rules and vehicles count with the header; where there are none, it is hashed alone.
+std::uint64_t hash_of_header(const WorldData& world) {
+  return hash_record(world.header, 0) + sum_of_hashes<FluidStore>(world) +
+         sum_of_hashes<PairRuleStore>(world) + sum_of_hashes<SurfaceRuleStore>(world) +
+         sum_of_hashes<VehicleStore>(world);
 }
 
 template <class Store, class State>
@@ -67,7 +74,9 @@ StateHash World::hash() const {
 
 StateHash128 World::hash128() const {
   StateHash128 hash;
-  hash.header = hash_record128(impl_->header, 0) + sum_of<FluidStore>(*impl_);
+  hash.header = hash_record128(impl_->header, 0) + sum_of<FluidStore>(*impl_) +
+                sum_of<PairRuleStore>(*impl_) + sum_of<SurfaceRuleStore>(*impl_) +
+                sum_of<VehicleStore>(*impl_);
   hash.bodies = sum_of<BodyStore>(*impl_);
   hash.contacts = sum_of<ContactStore>(*impl_);
   hash.joints = sum_of<JointStore>(*impl_);

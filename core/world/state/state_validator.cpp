@@ -72,6 +72,29 @@ WorldFault StateValidator::fault_of_joints() const {
   return {};
 }
 
+WorldFault StateValidator::fault_of_rules() const {
+  const auto fault_of = [](auto rules) -> WorldFault {
+    for (std::uint32_t i = 0; i < rules.size(); ++i) {
+      if (validate(rules[i]) != Status::ok) return {"a rule's record", i};
+      if (i > 0 && rules[i - 1].key() >= rules[i].key()) return {"the order of rules", i};
+    }
+    return {};
+  };
+  for (const PairRuleRecord& rule : pair_rules_of(world_, world_.header))
+    if (rule.body_b >= world_.header.body_limit || !world_.bodies[rule.body_a].exists() ||
+        !world_.bodies[rule.body_b].exists())
+      return {"a rule of no body", rule.body_b};
+  for (std::uint32_t i = 0; i < world_.header.vehicle_count; ++i) {
+    const VehicleRecord& vehicle = world_.vehicles[i];
+    if (validate(vehicle) != Status::ok || vehicle.chassis >= world_.header.body_limit ||
+        !world_.bodies[vehicle.chassis].exists() ||
+        (i > 0 && world_.vehicles[i - 1].chassis >= vehicle.chassis))
+      return {"a vehicle's record", i};
+  }
+  const WorldFault fault = fault_of(pair_rules_of(world_, world_.header));
+  return fault ? fault : fault_of(surface_rules_of(world_, world_.header));
+}
+
 // Data derived from a body alone.
 WorldFault StateValidator::fault_of_derived_bodies() const {
   std::uint32_t awake_count = 0, sleepers = 0;
@@ -189,6 +212,7 @@ WorldFault StateValidator::find_fault() {
     if (fault) return fault;
   for (std::uint32_t i = 0; i < world_.header.fluid_limit; ++i)
     if (validate(world_.fluids[i]) != Status::ok) return {"a fluid's record", i};
+  if (const WorldFault fault = fault_of_rules()) return fault;
   for (const WorldFault& fault :
        {fault_of_derived_bodies(), fault_of_derived_contacts(), fault_of_derived_joints()})
     if (fault) return fault;

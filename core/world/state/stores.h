@@ -15,6 +15,8 @@
 #include "core/dynamics/state/contact_record.h"
 #include "core/dynamics/state/fluid_record.h"
 #include "core/dynamics/state/joint_record.h"
+#include "core/dynamics/state/rule_records.h"
+#include "core/dynamics/state/vehicle_record.h"
 #include "core/world/state/record_codec.h"
 #include "core/world/state/record_hash.h"
 #include "core/world/state/world_header.h"
@@ -60,6 +62,34 @@ struct FluidStore {
   static constexpr bool k_has_key = false;
 };
 
+/// The same holds of the rules about pairs, and of vehicles.
+struct PairRuleStore {
+  using Record = PairRuleRecord;
+  static constexpr const char* k_name = "pair_rule";
+  static constexpr auto k_count = &WorldHeader::pair_rule_count;
+  static constexpr auto k_capacity = [](const WorldDef&) { return k_max_pair_rules; };
+  static constexpr std::uint64_t k_domain = k_pair_rule_domain;
+  static constexpr bool k_has_key = true;
+};
+
+struct SurfaceRuleStore {
+  using Record = SurfaceRuleRecord;
+  static constexpr const char* k_name = "surface_rule";
+  static constexpr auto k_count = &WorldHeader::surface_rule_count;
+  static constexpr auto k_capacity = [](const WorldDef&) { return k_max_surface_rules; };
+  static constexpr std::uint64_t k_domain = k_surface_rule_domain;
+  static constexpr bool k_has_key = true;
+};
+
+struct VehicleStore {
+  using Record = VehicleRecord;
+  static constexpr const char* k_name = "vehicle";
+  static constexpr auto k_count = &WorldHeader::vehicle_count;
+  static constexpr auto k_capacity = &WorldDef::vehicle_capacity;
+  static constexpr std::uint64_t k_domain = k_vehicle_domain;
+  static constexpr bool k_has_key = true;
+};
+
 /// The most records that a store may have.
 template <class Store>
 [[nodiscard]] std::uint32_t capacity_of(const WorldDef& def) {
@@ -103,7 +133,8 @@ struct StoreList {
   }
 };
 
-using WorldStores = StoreList<BodyStore, ContactStore, JointStore, FluidStore>;
+using WorldStores = StoreList<BodyStore, ContactStore, JointStore, FluidStore, PairRuleStore,
+                              SurfaceRuleStore, VehicleStore>;
 
 /// The state as it lies in memory: header, then the stores. Returns the bytes written, 0 when `out`
 /// is too small.

@@ -17,7 +17,11 @@ struct WorldHeader {
   std::uint32_t body_limit = 0;  // slots ever used
   std::uint32_t contact_count = 0;
   std::uint32_t joint_limit = 0;  // slots ever used
-  std::uint32_t fluid_limit = 0;  // fluids of higher numbers do not exist
+  // Bytes of one word, so that a world without rules and vehicles is as it was before.
+  std::uint8_t fluid_limit = 0;  // fluids of higher numbers do not exist
+  std::uint8_t surface_rule_count = 0;
+  std::uint8_t pair_rule_count = 0;
+  std::uint8_t vehicle_count = 0;
 
   friend bool operator==(const WorldHeader&, const WorldHeader&) = default;
 };
@@ -30,6 +34,9 @@ constexpr void visit_fields(WorldHeader& header, F&& f) {
   visit_value("contact_count", "", header.contact_count, f);
   visit_value("joint_limit", "", header.joint_limit, f);
   visit_value("fluid_limit", "", header.fluid_limit, f);
+  visit_value("surface_rule_count", "", header.surface_rule_count, f);
+  visit_value("pair_rule_count", "", header.pair_rule_count, f);
+  visit_value("vehicle_count", "", header.vehicle_count, f);
 }
 
 static_assert(visited_bytes<WorldHeader>() == sizeof(WorldHeader), "a field is missing");

@@ -29,6 +29,7 @@
 #include "lockstone_c/state.h"
 #include "lockstone_c/transports.h"
 #include "lockstone_c/units.h"
+#include "lockstone_c/vehicles.h"
 #include "lockstone_c/world.h"
 
 #endif

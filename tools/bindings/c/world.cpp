@@ -41,6 +41,7 @@ lks_world_def raw_def(const WorldDef& def) {
   raw.gravity = raw_of(def.gravity);
   raw.speed_limit = def.speed_limit.raw;
   raw.converged_contacts = def.converged_contacts;
+  raw.vehicle_capacity = def.vehicle_capacity;
   return raw;
 }
 
@@ -60,6 +61,7 @@ WorldDef world_def_of(const lks_world_def* from) {
   def.gravity = vec<Acceleration>(raw.gravity);
   def.speed_limit = Velocity::from_raw(raw.speed_limit);
   def.converged_contacts = raw.converged_contacts;
+  def.vehicle_capacity = raw.vehicle_capacity;
   const Refusal refusal = World::explain(def);
   if (refusal) throw failure(Status::invalid_argument, refusal);
   return def;

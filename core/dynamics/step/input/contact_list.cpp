@@ -24,10 +24,10 @@ void ContactList::find_sides(const ContactScene& scene, std::int64_t bearing_imp
     const ContactRecord& record = scene.records[i];
     Sides& sides = sides_[i];
     LKS_ASSERT(record.body_a < scene.bodies.size() && record.body_b < scene.bodies.size());
-    LKS_ASSERT(record.is_trigger() || scene.manifold_ids[i] < scene.manifolds.size());
+    LKS_ASSERT(record.is_inert() || scene.manifold_ids[i] < scene.manifolds.size());
     LKS_ASSERT(record.count <= record.points.size());
     sides = {};
-    if (record.is_trigger() || scene.surfaces[scene.manifold_ids[i]].bounces) continue;
+    if (record.is_inert() || scene.surfaces[scene.manifold_ids[i]].bounces) continue;
     const auto side_of = [&](std::uint32_t body) -> BodySide {
       return {body, static_cast<MotionType>(scene.bodies[body].motion)};
     };

@@ -98,7 +98,7 @@ void Bounces::join_groups() {
   };
   for (std::size_t i = 0; i < found_.records.size(); ++i) {
     const ContactRecord& record = found_.records[i];
-    if (record.is_trigger()) continue;
+    if (record.is_inert()) continue;
     const bool a = world_.bodies[record.body_a].is_dynamic(),
                b = world_.bodies[record.body_b].is_dynamic();
     const bool both_ballistic = is_ballistic(record.body_a) && is_ballistic(record.body_b);
@@ -114,7 +114,7 @@ void Bounces::join_groups() {
   }
   (void)islands_.settle(world_.awake.list());
   for (const ContactRecord& record : found_.records) {
-    if (record.is_trigger() || !one_is_ballistic(record)) continue;
+    if (record.is_inert() || !one_is_ballistic(record)) continue;
     std::uint8_t& marks = marks_[root_of(record)];
     if (marks < k_contact_count) ++marks;
   }
@@ -137,7 +137,7 @@ ImpactPair Bounces::pair_of(std::size_t contact) {
 }
 
 bool Bounces::may_bounce(const ContactRecord& record) {
-  if (record.is_trigger() || !one_is_ballistic(record)) return false;
+  if (record.is_inert() || !one_is_ballistic(record)) return false;
   const std::uint32_t root = root_of(record);
   return !islands_.is_active(root) && (marks_[root] & k_contact_count) <= k_most_bounce_contacts;
 }

@@ -16,6 +16,7 @@
 #include "core/world/phases/motion/fronts.h"
 #include "core/world/phases/motion/passes.h"
 #include "core/world/phases/narrow/contact_surfaces.h"
+#include "core/world/phases/narrow/one_way.h"
 
 namespace lockstone {
 namespace {
@@ -385,7 +386,9 @@ NextImpact ContinuousCollision::find_impact(std::uint32_t body, const Sweep& mot
     const bool sooner =
         impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
                        (impact.fraction == next.impact.fraction && other < next.body));
-    if (sooner) next = {other, impact};
+    if (sooner &&
+        !passes_on_way(world_, narrow_, {body, other}, motion, other_motion, impact.fraction))
+      next = {other, impact};
   });
   return next;
 }

@@ -2,6 +2,7 @@
 
 #include "core/collision/continuous/face_clamp.h"
 #include "core/dynamics/body/motion.h"
+#include "core/dynamics/state/one_way_bits.h"
 
 namespace lockstone {
 namespace {
@@ -25,7 +26,8 @@ FrontPush find_front(const WorldData& world, std::uint32_t body, const Vec3<Posi
   std::uint32_t body_of_first = 0;
   const auto look_at = [&](std::uint32_t other) {
     const Asset* mesh = world.cache.asset(other);
-    if (mesh == nullptr || mesh->mesh_kernels() == nullptr || !world.is_obstacle(body, other))
+    if (mesh == nullptr || mesh->mesh_kernels() == nullptr || !world.is_obstacle(body, other) ||
+        is_one_way(world.bodies[other]))
       return;
     const PlacedWay gone{
         moved_by(world.placed(body), start - record.position),

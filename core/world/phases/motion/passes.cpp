@@ -38,7 +38,7 @@ void TriggerPasses::begin() {
 bool TriggerPasses::senses(std::uint32_t body, std::uint32_t other) const {
   const BodyRecord &a = world_.bodies[body], &b = world_.bodies[other];
   return a.is_trigger() != b.is_trigger() && should_collide(a.filter(), b.filter()) &&
-         !world_.are_joined(body, other);
+         !world_.are_exempt(body, other);
 }
 
 // Notes each pair that touches while the body goes a fraction of its motion, which begins at `done`

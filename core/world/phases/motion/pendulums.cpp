@@ -33,7 +33,7 @@ void Pendulums::find() {
   for (const Pendulum& pendulum : pendulums_)
     touches_[pendulum.body] = 0;
   for (const ContactRecord& record : found_.records) {
-    if (!record.is_trigger()) touches_[record.body_a] = touches_[record.body_b] = 1;
+    if (!record.is_inert()) touches_[record.body_a] = touches_[record.body_b] = 1;
   }
   std::erase_if(pendulums_, [&](const Pendulum& pendulum) { return touches_[pendulum.body] != 0; });
   for (std::size_t i = 0; i < pendulums_.size(); ++i)

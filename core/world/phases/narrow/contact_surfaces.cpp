@@ -114,6 +114,16 @@ void add_drive(const WorldData& world, std::uint32_t body, const Vec3<Length>& a
   add_arc(about, speed, normal, world.def, sign, surface);
 }
 
+void apply_rules(const WorldData& world, const Pair& pair, ContactSurface& surface,
+                 Coefficient& rolling) {
+  const std::optional<PairSurface> ruled = ruled_surface(
+      world, world.header, rule_key(pair.a, pair.b), rule_key(surface.tag_a, surface.tag_b));
+  if (!ruled) return;
+  surface.friction = ruled->friction;
+  surface.restitution = ruled->restitution;
+  rolling = ruled->rolling_resistance;
+}
+
 }  // namespace
 
 // A part's own surface, or the body's. Written in place: copying the whole struct right after its
@@ -129,7 +139,10 @@ void find_surface(const WorldData& world, const Pair& pair, const Surface* surfa
   both.restitution = combined_restitution(a, b);
   both.tag_a = a.tag;
   both.tag_b = b.tag;
-  if (const Coefficient rolling = combined_rolling(a, b); rolling > Coefficient{})
+  Coefficient rolling = combined_rolling(a, b);
+  if (world.header.pair_rule_count != 0 || world.header.surface_rule_count != 0)
+    apply_rules(world, pair, both, rolling);
+  if (rolling > Coefficient{})
     both.rolling_arm = rounded<Length>(rolling_radius(world, pair) * rolling);
   if (manifold.count == 0) return;
   const auto add_side = [&](std::uint32_t index, const BodyRecord& body,

@@ -90,7 +90,7 @@ void NarrowPhase::run(std::span<const Pair> pairs, StepReport& report) {
 bool NarrowPhase::meet(const Pair& pair) {
   WorldData& world = data_.world;
   const BodyRecord &a = world.bodies[pair.a], &b = world.bodies[pair.b];
-  if (a.is_trigger() || b.is_trigger()) return false;
+  if (a.is_trigger() || b.is_trigger() || are_ignored(world, pair.a, pair.b)) return false;
   if (is_found_at_recycling_poses(world, pair)) {
     const Shape shape_a = a.shape(), shape_b = b.shape();
     return collide({shape_a, world.cache.recycling_rotations()[pair.a]},
@@ -101,6 +101,14 @@ bool NarrowPhase::meet(const Pair& pair) {
   collide_bodies(world.placed(pair.a), world.placed(pair.b), margin_of(pair),
                  scratch().triangles.get(), scratch().part_contacts);
   return scratch().part_contacts.count > 0;
+}
+
+bool NarrowPhase::are_passing(std::uint32_t a, std::uint32_t b) const {
+  const auto bodies_of = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
+  const Pair pair = data_.world.pair_of(a, b);
+  const std::vector<ContactRecord>& records = data_.found.records;
+  const auto at = std::ranges::lower_bound(records, pair, {}, bodies_of);
+  return at != records.end() && bodies_of(*at) == pair && at->is_passing();
 }
 
 // Returns whether all manifolds found room.
@@ -138,6 +146,7 @@ void NarrowPhase::collide_piece(std::uint32_t first, std::uint32_t end, PairScra
     while (exempt != exempt_pairs.end() && *exempt < data_.pairs[i])
       ++exempt;
     if (exempt != exempt_pairs.end() && *exempt == data_.pairs[i]) continue;
+    if (are_ignored(data_.world, data_.pairs[i].a, data_.pairs[i].b)) continue;
     while (!before.empty() && bodies_of(before.front()) < data_.pairs[i])
       before = before.subspan(1);
     std::size_t known = 0;
@@ -217,9 +226,7 @@ void NarrowPhase::number_contacts_of(std::uint32_t pair) {
     record.body_b = both.b;
     record.part_a = origin.part_a;
     record.part_b = origin.part_b;
-    if (origin.is_trigger) {
-      record.flags = static_cast<std::uint16_t>(record.flags | k_contact_trigger);
-    }
+    record.flags = static_cast<std::uint16_t>(record.flags | origin.flags);
     data_.found.manifold_ids[of_pair.index + i] = id;
     data_.found.approach_speeds[of_pair.index + i] = {};
   }

@@ -26,6 +26,9 @@ class NarrowPhase {
   /// Whether the two would get a contact now.
   [[nodiscard]] bool meet(const Pair& pair);
 
+  /// Whether the two pass each other in this tick, one of them one-way.
+  [[nodiscard]] bool are_passing(std::uint32_t a, std::uint32_t b) const;
+
   /// Forgets all about the tick before.
   void forget() { data_.separating_axes.forget(); }
 

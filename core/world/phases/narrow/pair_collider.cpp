@@ -10,6 +10,7 @@
 #include "core/geometry/distance/separation.h"
 #include "core/world/phases/narrow/contact_surfaces.h"
 #include "core/world/phases/narrow/narrow_phase.h"
+#include "core/world/phases/narrow/one_way.h"
 
 namespace lockstone {
 
@@ -32,6 +33,7 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
     if (bodies_overlap(world_.placed(pair.a), world_.placed(pair.b))) add_trigger(index, before);
     return;
   }
+  if (is_one_way_pair(world_, pair)) return collide_one_way(index, before, timer);
   const Length margin = margin_of(world_, pair);
   const bool is_recycled = is_found_at_recycling_poses(world_, pair);
   // Where it stays if the pair is to wait.
@@ -65,6 +67,42 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
   timer.found(parts.count);
   if (parts.overflowed) data_.ids.note_overflow();
   add_contacts(index, {parts.begin(), parts.end()}, input, before);
+}
+
+// Nothing of it is remembered: where the pair has no one-way body any more it is collided again.
+void PairCollider::collide_one_way(std::uint32_t index, std::span<const ContactRecord> before,
+                                   PairTimer& timer) {
+  const Pair pair = data_.pairs[index];
+  PartContacts& parts = scratch_.part_contacts;
+  collide_all_parts(pair, parts);
+  timer.found(parts.count);
+  if (parts.overflowed) data_.ids.note_overflow();
+  if (!is_passing(world_, pair, before, parts))
+    return add_contacts(index, {parts.begin(), parts.end()}, {}, before);
+  const std::uint32_t id = data_.ids.take(scratch_, 1);
+  if (id == ManifoldIds::k_none) return;
+  data_.of_pair[index] = {id, 1};
+  data_.origins[id] = {0, 0, ContactOrigin::k_new, k_contact_passing};
+  data_.found.manifolds[id] = {};
+  data_.notes.inputs[id] = {};
+  data_.found.surfaces[id] = {};
+}
+
+// Where the pair is, or at its recycling poses.
+void PairCollider::collide_all_parts(const Pair& pair, PartContacts& parts) const {
+  const Length margin = margin_of(world_, pair);
+  const BodyRecord &a = world_.bodies[pair.a], &b = world_.bodies[pair.b];
+  if (!is_found_at_recycling_poses(world_, pair)) {
+    return collide_bodies(world_.placed(pair.a), world_.placed(pair.b), margin,
+                          scratch_.triangles.get(), parts);
+  }
+  const Shape shape_a = a.shape(), shape_b = b.shape();
+  const std::vector<Mat3>& turned = world_.cache.recycling_rotations();
+  parts.clear();
+  PartContact contact;
+  lockstone::collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]}, recycling_offset(a, b),
+                     margin, contact.manifold);
+  if (contact.manifold.count > 0) parts.add(contact);
 }
 
 // For primitive shapes the manifold is made where it stays. Its inputs are in the next waiting
@@ -156,8 +194,9 @@ void PairCollider::fill(std::uint32_t id, const ContactKey& key, const Surface* 
                         std::span<const ContactRecord> before) {
   const auto old = std::ranges::find(before, key, &ContactRecord::key);
   data_.origins[id] = {key.part_a, key.part_b,
-                       old == before.end() ? ContactOrigin::k_new : world_.contacts.index_of(*old),
-                       false};
+                       old == before.end() || old->is_passing() ? ContactOrigin::k_new
+                                                                : world_.contacts.index_of(*old),
+                       0};
   data_.notes.inputs[id] = input;
   for (std::size_t i = 0; i < k_max_manifold_points; ++i)
     data_.notes.separations[id][i] = data_.found.manifolds[id].points[i].separation;
@@ -199,7 +238,8 @@ void PairCollider::add_trigger(std::uint32_t index, std::span<const ContactRecor
   if (id == ManifoldIds::k_none) return;
   data_.of_pair[index] = {id, 1};
   data_.origins[id] = {
-      0, 0, before.empty() ? ContactOrigin::k_new : world_.contacts.index_of(before.front()), true};
+      0, 0, before.empty() ? ContactOrigin::k_new : world_.contacts.index_of(before.front()),
+      k_contact_trigger};
   data_.found.manifolds[id] = {};
   data_.notes.inputs[id] = {};
   data_.found.surfaces[id] = {};

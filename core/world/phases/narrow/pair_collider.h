@@ -32,6 +32,9 @@ class PairCollider {
   [[nodiscard]] const std::vector<Mat3>& rotations_of(const Pair& pair) const;
   void collide_primitives(std::uint32_t index, std::span<const ContactRecord> before,
                           const Vec3<Unit>& last_axis, PairTimer& timer);
+  void collide_one_way(std::uint32_t index, std::span<const ContactRecord> before,
+                       PairTimer& timer);
+  void collide_all_parts(const Pair& pair, PartContacts& parts) const;
   int collide_alone(std::uint32_t index, const ManifoldInput& input,
                     std::span<const ContactRecord> before);
   void collide_waiting();

@@ -73,6 +73,7 @@ class SeamSearch {
   void drop_ghosts(std::uint32_t pair);
   void move_manifold(std::uint32_t from, std::uint32_t to);
   [[nodiscard]] bool is_static(std::uint32_t pair) const;
+  [[nodiscard]] bool is_passing(std::uint32_t pair) const;
   [[nodiscard]] TouchedPoint point_of(const SeamContact& contact, int point) const;
   [[nodiscard]] const std::optional<FaceOfShape>& face_of(SeamContact& contact) const;
   [[nodiscard]] bool is_covered(const SeamContact& contact) const;
@@ -106,11 +107,16 @@ bool SeamSearch::is_static(std::uint32_t pair) const {
   return !other.moves() && !other.is_trigger() && !world_.bodies[body_].is_trigger();
 }
 
+bool SeamSearch::is_passing(std::uint32_t pair) const {
+  const FoundContacts& found = data_.of_pair[pair];
+  return found.count > 0 && (data_.origins[found.first_id].flags & k_contact_passing) != 0;
+}
+
 // Nothing is listed where all have one normal: then none can do harm.
 void SeamSearch::list_contacts() {
   found_.count = 0;
   for (std::uint32_t i = first_; i < end_; ++i)
-    if (data_.of_pair[i].count > 0 && is_static(i)) list_contacts_of(i);
+    if (data_.of_pair[i].count > 0 && is_static(i) && !is_passing(i)) list_contacts_of(i);
   const auto is_like_first = [&](const SeamContact& each) {
     return are_alike(each.normal, found_.contacts.front().normal);
   };
@@ -188,6 +194,7 @@ bool SeamSearch::is_covered(const SeamContact& contact, const TouchedPoint& at) 
     const bool is_own = other == contact.other;
     if (is_own && asset != nullptr && asset->mesh_kernels() != nullptr) continue;
     if (!world_.joint_graph.exempt_pairs().empty() && world_.are_joined(body_, other)) continue;
+    if (are_ignored(world_, body_, other) || is_passing(i)) continue;
     const std::uint32_t except = is_own ? part_of(contact) : k_no_part;
     if (covers(world_.placed(other), except, at, world_.bodies[body_].position)) return true;
   }

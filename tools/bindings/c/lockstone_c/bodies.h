@@ -226,6 +226,33 @@ LKS_API lks_status lks_set_fluid(lks_world* world, uint32_t number, const lks_fl
 /* `out->size` must be set. */
 LKS_API lks_status lks_fluid_get(const lks_world* world, uint32_t number, lks_fluid* out);
 
+/* The surface of a contact, in place of the one that combines both sides. */
+typedef struct lks_pair_surface {
+  lks_unit friction;           /* 0 … 1.99 */
+  lks_unit restitution;        /* 0 … 1 */
+  lks_unit rolling_resistance; /* 0 … 1 */
+} lks_pair_surface;
+
+/* How two bodies treat each other, until one of them is destroyed: whether they meet (1 or 0), and
+ * the surface of their contacts, or null. 1 and null take the rule back. At most 255 rules. */
+LKS_API lks_status lks_set_pair_rule(lks_world* world, lks_body a, lks_body b, uint32_t collides,
+                                     const lks_pair_surface* surface);
+LKS_API lks_status lks_pair_rule_get(const lks_world* world, lks_body a, lks_body b,
+                                     uint32_t* collides, uint32_t* has_surface,
+                                     lks_pair_surface* surface);
+/* The surface of all contacts between two tags; null takes the rule back. At most 128 rules. */
+LKS_API lks_status lks_set_surface_rule(lks_world* world, uint32_t tag_a, uint32_t tag_b,
+                                        const lks_pair_surface* surface);
+LKS_API lks_status lks_surface_rule_get(const lks_world* world, uint32_t tag_a, uint32_t tag_b,
+                                        uint32_t* has_surface, lks_pair_surface* surface);
+/* A static or kinematic body that stops others from one side only: the direction points out of its
+ * front, in the axes of its shape; contacts hold within 1 … 90 degrees of it. Zero: from every
+ * side. */
+LKS_API lks_status lks_set_one_way(lks_world* world, lks_body body, const lks_unit3* direction,
+                                   uint32_t tolerance);
+LKS_API lks_status lks_one_way_get(const lks_world* world, lks_body body, lks_unit3* direction,
+                                   uint32_t* tolerance);
+
 /* Names a body for people: not state. 28 bytes of UTF-8 and no more are kept. */
 LKS_API lks_status lks_set_name(lks_world* world, lks_body body, const char* name);
 

@@ -25,7 +25,7 @@ typedef struct lks_world_def {
   lks_acceleration3 gravity;
   lks_velocity speed_limit;    /* of every body, 1 … 500 m/s */
   uint32_t converged_contacts; /* of islands solved to convergence, 0 … 65,536; 0: none is */
-  uint32_t reserved;           /* 0 */
+  uint32_t vehicle_capacity;   /* 0 … 64 */
 } lks_world_def;
 
 /* Sets the defaults: `lks_world_def_init(&def, sizeof def)`. */

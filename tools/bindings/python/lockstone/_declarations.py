@@ -152,6 +152,8 @@ LKS_RATE_BITS = 20
 LKS_ANGLE_BITS = 27
 LKS_DENSITY_BITS = 8
 LKS_INERTIA_BITS = 28
+LKS_WHEEL_RAY = 0
+LKS_WHEEL_SPHERE = 1
 LKS_MAX_HISTORY_TICKS = 256
 LOCKSTONE_GAME_ABI = 1
 LOCKSTONE_GAME_MAX_PARTS = 8
@@ -304,6 +306,14 @@ class lks_fluid(Structure):
         ("drag", c_int32),
         ("linear_drag", c_int32),
         ("reserved", c_uint32),
+    ]
+
+
+class lks_pair_surface(Structure):
+    _fields_ = [
+        ("friction", c_int32),
+        ("restitution", c_int32),
+        ("rolling_resistance", c_int32),
     ]
 
 
@@ -673,6 +683,88 @@ class lks_pose(Structure):
     ]
 
 
+class lks_axle(Structure):
+    _fields_ = [
+        ("mount", lks_i32x3),
+        ("half_track", c_int32),
+        ("radius", c_int32),
+        ("travel", c_int32),
+        ("frequency", c_int32),
+        ("damping_ratio", c_int32),
+        ("anti_roll", c_int32),
+        ("max_steer", c_int32),
+        ("drive", c_int32),
+        ("friction", c_int32),
+        ("brake", c_int64),
+        ("handbrake", c_int64),
+        ("differential_lock", c_int64),
+    ]
+
+
+class lks_vehicle_def(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("axle_count", c_uint32),
+        ("axles", lks_axle * 3),
+        ("peak_slip", c_int32),
+        ("peak_angle", c_int32),
+        ("relaxation", c_int32),
+        ("rolling_resistance", c_int32),
+        ("torque", c_int64 * 8),
+        ("idle_speed", c_int64),
+        ("max_speed", c_int64),
+        ("engine_inertia", c_int64),
+        ("engine_friction", c_int64),
+        ("ratios", c_int32 * 8),
+        ("reverse", c_int32),
+        ("final_drive", c_int32),
+        ("automatic", c_uint32),
+        ("shift_ticks", c_uint32),
+        ("shift_up", c_int64),
+        ("shift_down", c_int64),
+        ("clutch", c_int64),
+        ("wheel_inertia", c_int64),
+        ("cast", c_uint32),
+        ("mask", c_uint32),
+    ]
+
+
+class lks_vehicle_controls(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("gear", c_int32),
+        ("throttle", c_int32),
+        ("brake", c_int32),
+        ("handbrake", c_int32),
+        ("steer", c_int32),
+        ("clutch", c_int32),
+        ("reserved", c_uint32),
+    ]
+
+
+class lks_wheel_view(Structure):
+    _fields_ = [
+        ("centre", lks_i64x3),
+        ("spin", c_int64),
+        ("load", c_int64),
+        ("compression", c_int32),
+        ("steer_sin", c_int32),
+        ("is_grounded", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class lks_vehicle_view(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("gear", c_int32),
+        ("engine_speed", c_int64),
+        ("wheel_count", c_uint32),
+        ("reserved", c_uint32),
+        ("wheels", lks_wheel_view * 6),
+    ]
+
+
 class lks_world_def(Structure):
     _fields_ = [
         ("size", c_uint32),
@@ -688,7 +780,7 @@ class lks_world_def(Structure):
         ("gravity", lks_i64x3),
         ("speed_limit", c_int64),
         ("converged_contacts", c_uint32),
-        ("reserved", c_uint32),
+        ("vehicle_capacity", c_uint32),
     ]
 
 
@@ -844,6 +936,12 @@ FUNCTIONS = {
     "lks_fluid_init": [c_int32, POINTER(lks_fluid), c_size_t],
     "lks_set_fluid": [c_int32, c_void_p, c_uint32, POINTER(lks_fluid)],
     "lks_fluid_get": [c_int32, c_void_p, c_uint32, POINTER(lks_fluid)],
+    "lks_set_pair_rule": [c_int32, c_void_p, c_uint64, c_uint64, c_uint32, POINTER(lks_pair_surface)],
+    "lks_pair_rule_get": [c_int32, c_void_p, c_uint64, c_uint64, POINTER(c_uint32), POINTER(c_uint32), POINTER(lks_pair_surface)],
+    "lks_set_surface_rule": [c_int32, c_void_p, c_uint32, c_uint32, POINTER(lks_pair_surface)],
+    "lks_surface_rule_get": [c_int32, c_void_p, c_uint32, c_uint32, POINTER(c_uint32), POINTER(lks_pair_surface)],
+    "lks_set_one_way": [c_int32, c_void_p, c_uint64, POINTER(lks_i32x3), c_uint32],
+    "lks_one_way_get": [c_int32, c_void_p, c_uint64, POINTER(lks_i32x3), POINTER(c_uint32)],
     "lks_set_name": [c_int32, c_void_p, c_uint64, c_char_p],
     "lks_body_exists": [c_int32, c_void_p, c_uint64, POINTER(c_uint32)],
     "lks_body_get": [c_int32, c_void_p, c_uint64, POINTER(lks_body_view)],
@@ -956,6 +1054,11 @@ FUNCTIONS = {
     "lks_from_ratio": [c_int32, c_int64, c_int64, c_int32, POINTER(c_int64)],
     "lks_from_decimal": [c_int32, c_char_p, c_int32, POINTER(c_int64)],
     "lks_to_decimal": [c_int32, c_int64, c_int32, c_void_p, c_size_t],
+    "lks_vehicle_controls_init": [c_int32, POINTER(lks_vehicle_controls), c_size_t],
+    "lks_make_car": [c_int32, c_int32, c_int32, c_int32, c_int64, POINTER(lks_vehicle_def), c_size_t],
+    "lks_set_vehicle": [c_int32, c_void_p, c_uint64, POINTER(lks_vehicle_def)],
+    "lks_drive_vehicle": [c_int32, c_void_p, c_uint64, POINTER(lks_vehicle_controls)],
+    "lks_vehicle_get": [c_int32, c_void_p, c_uint64, POINTER(lks_vehicle_view)],
     "lks_world_def_init": [c_int32, POINTER(lks_world_def), c_size_t],
     "lks_world_create": [c_int32, POINTER(lks_world_def), c_void_p, POINTER(c_void_p)],
     "lks_world_create_scene": [c_int32, c_char_p, c_uint64, POINTER(c_void_p)],

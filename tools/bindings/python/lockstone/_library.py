@@ -35,7 +35,7 @@ class WorldDef(ctypes.Structure):
                 ("contact_capacity", c_uint32), ("joint_capacity", c_uint32), ("tick_rate", c_uint32),
                 ("substeps", c_uint32), ("sleep_ms", c_uint32), ("sleep_distance", c_int32),
                 ("broad_phase", c_uint32), ("gravity", I64x3), ("speed_limit", c_int64),
-                ("converged_contacts", c_uint32), ("reserved", c_uint32)]
+                ("converged_contacts", c_uint32), ("vehicle_capacity", c_uint32)]
 
 
 class Surface(ctypes.Structure):
@@ -71,6 +71,10 @@ class BodyView(ctypes.Structure):
                 ("surface_motion", SurfaceMotion), ("gravity_scale", c_int32), ("linear_damping", c_int32),
                 ("angular_damping", c_int32), ("reserved", c_uint32), ("speed_limit", c_int64),
                 ("angular_speed_limit", c_int64)]
+
+
+class PairSurface(ctypes.Structure):
+    _fields_ = [("friction", c_int32), ("restitution", c_int32), ("rolling_resistance", c_int32)]
 
 
 class Fluid(ctypes.Structure):
@@ -171,6 +175,14 @@ _CALLS = {
     "lks_sleep_body": [_WORLD, _BODY],
     "lks_set_allow_sleep": [_WORLD, _BODY, c_uint32],
     "lks_set_gravity": [_WORLD, POINTER(I64x3)],
+    "lks_make_car": [c_int32, c_int32, c_int32, c_int64, c_void_p, c_size_t],
+    "lks_set_vehicle": [_WORLD, _BODY, c_void_p],
+    "lks_vehicle_controls_init": [c_void_p, c_size_t],
+    "lks_drive_vehicle": [_WORLD, _BODY, c_void_p],
+    "lks_vehicle_get": [_WORLD, _BODY, c_void_p],
+    "lks_set_pair_rule": [_WORLD, _BODY, _BODY, c_uint32, POINTER(PairSurface)],
+    "lks_set_surface_rule": [_WORLD, c_uint32, c_uint32, POINTER(PairSurface)],
+    "lks_set_one_way": [_WORLD, _BODY, POINTER(I32x3), c_uint32],
     "lks_fluid_init": [POINTER(Fluid), c_size_t],
     "lks_set_fluid": [_WORLD, c_uint32, POINTER(Fluid)],
     "lks_fluid_get": [_WORLD, c_uint32, POINTER(Fluid)],

@@ -8,7 +8,9 @@ from fractions import Fraction
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from . import units
-from ._library import (BodyDef, BodyView, Event, Filter, Fluid, Hit, HitEvent, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
+from ._library import (BodyDef, BodyView, Event, Filter, Fluid, Hit, HitEvent, I32x3, I64x3, JointDef, PairSurface, Pose, Quat, Shape, WorldDef, lib)
+from ._declarations import (lks_vehicle_controls as VehicleControls, lks_vehicle_def as VehicleDef,
+                            lks_vehicle_view as VehicleView)
 from .shapes import Assets, lengths
 from .units import Quantity, Rotation, Vector
 
@@ -22,6 +24,16 @@ Exact = Tuple[Fraction, Fraction, Fraction]
 
 def _wide(vector: Vector, bits: int) -> I64x3:
     return I64x3(*(units.raw(value, bits) for value in vector))
+
+
+def _narrow(vector: Vector, bits: int) -> I32x3:
+    return I32x3(*(units.raw(value, bits, 32) for value in vector))
+
+
+def _pair_surface(surface: Optional[Tuple[Quantity, ...]]) -> Any:
+    if surface is None:
+        return None
+    return byref(PairSurface(*(units.raw(value, units.UNIT, 32) for value in surface)))
 
 
 def _quat(rotation: Rotation) -> Quat:
@@ -173,6 +185,32 @@ class Body:
     def set_events(self, *, contacts: bool = True, hit_speed: Quantity = 0) -> None:
         self._call("lks_set_events", int(contacts), units.raw(hit_speed, units.SPEED, 32))
 
+    def set_one_way(self, direction: Vector, tolerance: int = 60) -> None:
+        """A static or kinematic body stops others from the side of the direction only, in the axes of its shape."""
+        self._call("lks_set_one_way", byref(_narrow(direction, units.UNIT)), tolerance)
+
+    def set_car(self, length: Quantity, half_track: Quantity, height: Quantity, torque: Quantity) -> None:
+        """Wheels, an engine and a gearbox for a dynamic body; ahead is x in the axes of its shape."""
+        definition = VehicleDef()
+        lib.lks_make_car(*(units.raw(value, units.LENGTH, 32) for value in (length, half_track, height)),
+                         units.raw(torque, units.FORCE), byref(definition), sizeof(definition))
+        self._call("lks_set_vehicle", byref(definition))
+
+    def drive(self, *, throttle: Quantity = 0, brake: Quantity = 0, handbrake: Quantity = 0, steer: Quantity = 0,
+              clutch: Quantity = 0, gear: int = 1) -> None:
+        controls = VehicleControls()
+        lib.lks_vehicle_controls_init(byref(controls), sizeof(controls))
+        controls.gear = gear
+        (controls.throttle, controls.brake, controls.handbrake, controls.steer, controls.clutch) = (
+            units.raw(value, units.UNIT, 32) for value in (throttle, brake, handbrake, steer, clutch))
+        self._call("lks_drive_vehicle", byref(controls))
+
+    def vehicle(self) -> VehicleView:
+        view = VehicleView()
+        view.size = sizeof(view)
+        lib.lks_vehicle_get(self.world.handle, self.number, byref(view))
+        return view
+
     def set_motion_type(self, motion: int, mass: Quantity = 0) -> None:
         """A body that becomes dynamic gets the mass, in kg; 0: that of its solid at 1000 kg/m³."""
         self._call("lks_set_motion_type", motion, units.raw(mass, units.MASS, 64))
@@ -293,6 +331,15 @@ class World:
         fluid.drag = units.raw(drag, units.NUMBER, 32)
         fluid.linear_drag = units.raw(linear_drag, units.RATE, 32)
         lib.lks_set_fluid(self.handle, number, byref(fluid))
+
+    def set_pair_rule(self, a: "Body", b: "Body", *, collides: bool = True,
+                      surface: Optional[Tuple[Quantity, ...]] = None) -> None:
+        """Whether two bodies meet, and friction, restitution, rolling resistance of their contacts."""
+        lib.lks_set_pair_rule(self.handle, a.number, b.number, int(collides), _pair_surface(surface))
+
+    def set_surface_rule(self, tag_a: int, tag_b: int, surface: Optional[Tuple[Quantity, ...]]) -> None:
+        """Friction, restitution, rolling resistance of all contacts between two tags; None takes the rule back."""
+        lib.lks_set_surface_rule(self.handle, tag_a, tag_b, _pair_surface(surface))
 
     def create_body(self, shape: Shape, *, motion: int = DYNAMIC, position: Vector = (0, 0, 0),
                     orientation: Rotation = (0, 0, 0, 1), velocity: Vector = (0, 0, 0),

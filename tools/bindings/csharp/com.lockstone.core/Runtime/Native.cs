@@ -113,6 +113,14 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_pair_surface
+    {
+        public int friction;
+        public int restitution;
+        public int rolling_resistance;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_client_def
     {
         public uint size;
@@ -511,6 +519,95 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_axle
+    {
+        public lks_i32x3 mount;
+        public int half_track;
+        public int radius;
+        public int travel;
+        public int frequency;
+        public int damping_ratio;
+        public int anti_roll;
+        public int max_steer;
+        public int drive;
+        public int friction;
+        public long brake;
+        public long handbrake;
+        public long differential_lock;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_vehicle_def
+    {
+        public uint size;
+        public uint axle_count;
+        public lks_axle axles_0;
+        public lks_axle axles_1;
+        public lks_axle axles_2;
+        public int peak_slip;
+        public int peak_angle;
+        public int relaxation;
+        public int rolling_resistance;
+        public fixed long torque[8];
+        public long idle_speed;
+        public long max_speed;
+        public long engine_inertia;
+        public long engine_friction;
+        public fixed int ratios[8];
+        public int reverse;
+        public int final_drive;
+        public uint automatic;
+        public uint shift_ticks;
+        public long shift_up;
+        public long shift_down;
+        public long clutch;
+        public long wheel_inertia;
+        public uint cast;
+        public uint mask;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_vehicle_controls
+    {
+        public uint size;
+        public int gear;
+        public int throttle;
+        public int brake;
+        public int handbrake;
+        public int steer;
+        public int clutch;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_wheel_view
+    {
+        public lks_i64x3 centre;
+        public long spin;
+        public long load;
+        public int compression;
+        public int steer_sin;
+        public uint is_grounded;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_vehicle_view
+    {
+        public uint size;
+        public int gear;
+        public long engine_speed;
+        public uint wheel_count;
+        public uint reserved;
+        public lks_wheel_view wheels_0;
+        public lks_wheel_view wheels_1;
+        public lks_wheel_view wheels_2;
+        public lks_wheel_view wheels_3;
+        public lks_wheel_view wheels_4;
+        public lks_wheel_view wheels_5;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_world_def
     {
         public uint size;
@@ -526,7 +623,7 @@ namespace Lockstone.Interop
         public lks_i64x3 gravity;
         public long speed_limit;
         public uint converged_contacts;
-        public uint reserved;
+        public uint vehicle_capacity;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -834,6 +931,8 @@ namespace Lockstone.Interop
         public const int LKS_ANGLE_BITS = 27;
         public const int LKS_DENSITY_BITS = 8;
         public const int LKS_INERTIA_BITS = 28;
+        public const uint LKS_WHEEL_RAY = 0;
+        public const uint LKS_WHEEL_SPHERE = 1;
         public const uint LKS_MAX_HISTORY_TICKS = 256;
         public const uint LOCKSTONE_GAME_ABI = 1;
         public const uint LOCKSTONE_GAME_MAX_PARTS = 8;
@@ -977,6 +1076,24 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_fluid_get(IntPtr world, uint number, lks_fluid* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_pair_rule(IntPtr world, ulong a, ulong b, uint collides, lks_pair_surface* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_pair_rule_get(IntPtr world, ulong a, ulong b, uint* collides, uint* has_surface, lks_pair_surface* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_surface_rule(IntPtr world, uint tag_a, uint tag_b, lks_pair_surface* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_surface_rule_get(IntPtr world, uint tag_a, uint tag_b, uint* has_surface, lks_pair_surface* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_one_way(IntPtr world, ulong body, lks_i32x3* direction, uint tolerance);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_one_way_get(IntPtr world, ulong body, lks_i32x3* direction, uint* tolerance);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_set_name(IntPtr world, ulong body, byte* name);
@@ -1313,6 +1430,21 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_to_decimal(long raw, int bits, byte* @out, UIntPtr capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_vehicle_controls_init(lks_vehicle_controls* controls, UIntPtr size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_make_car(int length, int half_track, int height, long torque, lks_vehicle_def* @out, UIntPtr size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_vehicle(IntPtr world, ulong chassis, lks_vehicle_def* def);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_drive_vehicle(IntPtr world, ulong chassis, lks_vehicle_controls* controls);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_vehicle_get(IntPtr world, ulong chassis, lks_vehicle_view* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_world_def_init(lks_world_def* def, UIntPtr size);

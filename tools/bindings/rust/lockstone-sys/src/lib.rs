@@ -187,6 +187,8 @@ pub const LKS_RATE_BITS: i32 = 20;
 pub const LKS_ANGLE_BITS: i32 = 27;
 pub const LKS_DENSITY_BITS: i32 = 8;
 pub const LKS_INERTIA_BITS: i32 = 28;
+pub const LKS_WHEEL_RAY: u32 = 0;
+pub const LKS_WHEEL_SPHERE: u32 = 1;
 pub const LKS_MAX_HISTORY_TICKS: u32 = 256;
 pub const LOCKSTONE_GAME_ABI: u32 = 1;
 pub const LOCKSTONE_GAME_MAX_PARTS: u32 = 8;
@@ -349,6 +351,13 @@ pub struct lks_fluid {
     pub drag: lks_number,
     pub linear_drag: lks_rate,
     pub reserved: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_pair_surface {
+    pub friction: lks_unit,
+    pub restitution: lks_unit,
+    pub rolling_resistance: lks_unit,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -713,6 +722,83 @@ pub struct lks_pose {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct lks_axle {
+    pub mount: lks_length3,
+    pub half_track: lks_length,
+    pub radius: lks_length,
+    pub travel: lks_length,
+    pub frequency: lks_number,
+    pub damping_ratio: lks_number,
+    pub anti_roll: lks_number,
+    pub max_steer: lks_angle,
+    pub drive: lks_unit,
+    pub friction: lks_unit,
+    pub brake: lks_force,
+    pub handbrake: lks_force,
+    pub differential_lock: lks_force,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_vehicle_def {
+    pub size: u32,
+    pub axle_count: u32,
+    pub axles: [lks_axle; 3],
+    pub peak_slip: lks_unit,
+    pub peak_angle: lks_unit,
+    pub relaxation: lks_length,
+    pub rolling_resistance: lks_unit,
+    pub torque: [lks_force; 8],
+    pub idle_speed: lks_angular_velocity,
+    pub max_speed: lks_angular_velocity,
+    pub engine_inertia: lks_inertia,
+    pub engine_friction: lks_force,
+    pub ratios: [lks_number; 8],
+    pub reverse: lks_number,
+    pub final_drive: lks_number,
+    pub automatic: u32,
+    pub shift_ticks: u32,
+    pub shift_up: lks_angular_velocity,
+    pub shift_down: lks_angular_velocity,
+    pub clutch: lks_force,
+    pub wheel_inertia: lks_inertia,
+    pub cast: u32,
+    pub mask: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_vehicle_controls {
+    pub size: u32,
+    pub gear: i32,
+    pub throttle: lks_unit,
+    pub brake: lks_unit,
+    pub handbrake: lks_unit,
+    pub steer: lks_unit,
+    pub clutch: lks_unit,
+    pub reserved: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_wheel_view {
+    pub centre: lks_position3,
+    pub spin: lks_angular_velocity,
+    pub load: lks_force,
+    pub compression: lks_length,
+    pub steer_sin: lks_unit,
+    pub is_grounded: u32,
+    pub reserved: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_vehicle_view {
+    pub size: u32,
+    pub gear: i32,
+    pub engine_speed: lks_angular_velocity,
+    pub wheel_count: u32,
+    pub reserved: u32,
+    pub wheels: [lks_wheel_view; 6],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct lks_world_def {
     pub size: u32,
     pub body_capacity: u32,
@@ -727,7 +813,7 @@ pub struct lks_world_def {
     pub gravity: lks_acceleration3,
     pub speed_limit: lks_velocity,
     pub converged_contacts: u32,
-    pub reserved: u32,
+    pub vehicle_capacity: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -873,6 +959,12 @@ extern "C" {
     pub fn lks_fluid_init(fluid: *mut lks_fluid, size: usize) -> lks_status;
     pub fn lks_set_fluid(world: *mut lks_world, number: u32, fluid: *const lks_fluid) -> lks_status;
     pub fn lks_fluid_get(world: *const lks_world, number: u32, out: *mut lks_fluid) -> lks_status;
+    pub fn lks_set_pair_rule(world: *mut lks_world, a: lks_body, b: lks_body, collides: u32, surface: *const lks_pair_surface) -> lks_status;
+    pub fn lks_pair_rule_get(world: *const lks_world, a: lks_body, b: lks_body, collides: *mut u32, has_surface: *mut u32, surface: *mut lks_pair_surface) -> lks_status;
+    pub fn lks_set_surface_rule(world: *mut lks_world, tag_a: u32, tag_b: u32, surface: *const lks_pair_surface) -> lks_status;
+    pub fn lks_surface_rule_get(world: *const lks_world, tag_a: u32, tag_b: u32, has_surface: *mut u32, surface: *mut lks_pair_surface) -> lks_status;
+    pub fn lks_set_one_way(world: *mut lks_world, body: lks_body, direction: *const lks_unit3, tolerance: u32) -> lks_status;
+    pub fn lks_one_way_get(world: *const lks_world, body: lks_body, direction: *mut lks_unit3, tolerance: *mut u32) -> lks_status;
     pub fn lks_set_name(world: *mut lks_world, body: lks_body, name: *const c_char) -> lks_status;
     pub fn lks_body_exists(world: *const lks_world, body: lks_body, out: *mut u32) -> lks_status;
     pub fn lks_body_get(world: *const lks_world, body: lks_body, out: *mut lks_body_view) -> lks_status;
@@ -985,6 +1077,11 @@ extern "C" {
     pub fn lks_from_ratio(numerator: i64, denominator: i64, bits: i32, out: *mut i64) -> lks_status;
     pub fn lks_from_decimal(text: *const c_char, bits: i32, out: *mut i64) -> lks_status;
     pub fn lks_to_decimal(raw: i64, bits: i32, out: *mut c_char, capacity: usize) -> lks_status;
+    pub fn lks_vehicle_controls_init(controls: *mut lks_vehicle_controls, size: usize) -> lks_status;
+    pub fn lks_make_car(length: lks_length, half_track: lks_length, height: lks_length, torque: lks_force, out: *mut lks_vehicle_def, size: usize) -> lks_status;
+    pub fn lks_set_vehicle(world: *mut lks_world, chassis: lks_body, def: *const lks_vehicle_def) -> lks_status;
+    pub fn lks_drive_vehicle(world: *mut lks_world, chassis: lks_body, controls: *const lks_vehicle_controls) -> lks_status;
+    pub fn lks_vehicle_get(world: *const lks_world, chassis: lks_body, out: *mut lks_vehicle_view) -> lks_status;
     pub fn lks_world_def_init(def: *mut lks_world_def, size: usize) -> lks_status;
     pub fn lks_world_create(def: *const lks_world_def, assets: *const lks_assets, out: *mut *mut lks_world) -> lks_status;
     pub fn lks_world_create_scene(name: *const c_char, seed: u64, out: *mut *mut lks_world) -> lks_status;

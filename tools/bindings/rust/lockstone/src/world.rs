@@ -132,6 +132,10 @@ impl Drop for World {
     }
 }
 
+fn pointer_to<T>(value: Option<&T>) -> *const T {
+    value.map_or(ptr::null(), |value| value as *const T)
+}
+
 macro_rules! commands {
     ($($(#[$note:meta])* $name:ident($($argument:ident: $kind:ty => $pass:expr),*) = $c:ident;)*) => {
         $($(#[$note])*
@@ -258,6 +262,18 @@ impl World {
         sleep_body(body: Body => body.0) = lks_sleep_body;
         set_allow_sleep(body: Body => body.0, allow: bool => allow as u32) = lks_set_allow_sleep;
         set_gravity(gravity: lks_i64x3 => &gravity) = lks_set_gravity;
+        /// The surface of all contacts between two tags; none takes the rule back.
+        set_surface_rule(tag_a: u32 => tag_a, tag_b: u32 => tag_b, surface: Option<&sys::lks_pair_surface> => pointer_to(surface))
+            = lks_set_surface_rule;
+        /// Whether two bodies meet, and the surface of their contacts.
+        set_pair_rule(a: Body => a.0, b: Body => b.0, collides: bool => collides as u32,
+                      surface: Option<&sys::lks_pair_surface> => pointer_to(surface)) = lks_set_pair_rule;
+        /// Lets a body stop others from its front alone; the direction is in the axes of its shape.
+        set_one_way(body: Body => body.0, direction: sys::lks_i32x3 => &direction, tolerance: u32 => tolerance)
+            = lks_set_one_way;
+        /// Makes a dynamic body a chassis; none takes its wheels away.
+        set_vehicle(chassis: Body => chassis.0, def: Option<&sys::lks_vehicle_def> => pointer_to(def)) = lks_set_vehicle;
+        drive_vehicle(chassis: Body => chassis.0, controls: &sys::lks_vehicle_controls => controls) = lks_drive_vehicle;
         /// Fluid 0 … 15; density 0 removes it.
         set_fluid(number: u32 => number, fluid: &sys::lks_fluid => fluid) = lks_set_fluid;
         destroy_joint(joint: Joint => joint.0) = lks_destroy_joint;

@@ -1,0 +1,186 @@
+// The commands that set rules about pairs.
+
+#include <algorithm>
+#include <utility>
+
+#include "core/dynamics/state/one_way_bits.h"
+#include "core/geometry/convex/shape_properties.h"
+#include "core/world/commands/command_checks.h"
+#include "core/world/commands/command_executor.h"
+#include "core/world/commands/rule_changes.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+// Writes or removes the record with the key of `record` in a sorted table of `count` records.
+// Returns whether there was room.
+template <class Table, class Record>
+bool set_record(Table& table, std::uint32_t& count, const Record& record, bool exists) {
+  LKS_ASSERT(count <= table.size());
+  const auto end = table.begin() + count;
+  const auto at = std::ranges::lower_bound(table.begin(), end, record.key(), {}, &Record::key);
+  const bool is_known = at != end && at->key() == record.key();
+  if (exists && !is_known && count == table.size()) return false;
+  if (exists && !is_known) {
+    std::copy_backward(at, end, end + 1);
+    ++count;
+  }
+  if (exists) *at = record;
+  if (!exists && is_known) {
+    std::copy(at + 1, end, at);
+    table[--count] = {};
+  }
+  return true;
+}
+
+PairRuleRecord record_of(const SetPairRule& command) {
+  PairRuleRecord record;
+  const RuleKey key = rule_key(command.a.index, command.b.index);
+  record.body_a = key.low;
+  record.body_b = key.high;
+  if (!command.rule.collides) record.flags |= k_pair_ignored;
+  if (!command.rule.surface) return record;
+  record.flags |= k_pair_has_surface;
+  record.friction = command.rule.surface->friction;
+  record.restitution = command.rule.surface->restitution;
+  record.rolling_resistance = command.rule.surface->rolling_resistance;
+  return record;
+}
+
+SurfaceRuleRecord record_of(const SetSurfaceRule& command) {
+  SurfaceRuleRecord record;
+  const RuleKey key = rule_key(command.tag_a, command.tag_b);
+  record.tag_a = key.low;
+  record.tag_b = key.high;
+  if (!command.surface) return record;
+  record.friction = command.surface->friction;
+  record.restitution = command.surface->restitution;
+  record.rolling_resistance = command.surface->rolling_resistance;
+  return record;
+}
+
+bool is_surface_or_none(const std::optional<PairSurface>& surface) {
+  return !surface || is_valid(*surface);
+}
+
+}  // namespace
+
+bool is_valid(const PairSurface& surface) {
+  Surface as_surface;
+  as_surface.friction = surface.friction;
+  as_surface.restitution = surface.restitution;
+  as_surface.rolling_resistance = surface.rolling_resistance;
+  return geometry::is_valid(as_surface);
+}
+
+bool has_room_for_rule(const WorldData& world, const RuleKey& bodies) {
+  const auto rules = pair_rules_of(world, world.header);
+  return rules.size() < k_max_pair_rules || find_rule(rules, bodies) != nullptr;
+}
+
+bool has_room_for_surface_rule(const WorldData& world, const RuleKey& tags) {
+  const auto rules = surface_rules_of(world, world.header);
+  return rules.size() < k_max_surface_rules || find_rule(rules, tags) != nullptr;
+}
+
+void forget_rules_of(WorldData& world, std::uint32_t body) {
+  if (world.header.pair_rule_count == 0) return;
+  const auto end = world.pair_rules.begin() + world.header.pair_rule_count;
+  const auto kept = std::remove_if(world.pair_rules.begin(), end, [&](const auto& record) {
+    return record.body_a == body || record.body_b == body;
+  });
+  std::fill(kept, end, PairRuleRecord{});
+  world.header.pair_rule_count = static_cast<std::uint8_t>(kept - world.pair_rules.begin());
+}
+
+void forget_vehicle_of(WorldData& world, std::uint32_t body) {
+  VehicleRecord* vehicle = find_vehicle(world, body);
+  if (vehicle == nullptr) return;
+  const auto end = world.vehicles.begin() + world.header.vehicle_count;
+  std::copy(world.vehicles.begin() + (vehicle - world.vehicles.data()) + 1, end,
+            world.vehicles.begin() + (vehicle - world.vehicles.data()));
+  world.vehicles[--world.header.vehicle_count] = {};
+}
+
+const VehicleRecord* find_vehicle(const WorldData& world, std::uint32_t body) {
+  const auto all = std::span(world.vehicles).first(world.header.vehicle_count);
+  const auto at = std::ranges::lower_bound(all, body, {}, &VehicleRecord::chassis);
+  return at != all.end() && at->chassis == body ? &*at : nullptr;
+}
+
+VehicleRecord* find_vehicle(WorldData& world, std::uint32_t body) {
+  const VehicleRecord* found = find_vehicle(std::as_const(world), body);
+  return found == nullptr
+             ? nullptr
+             : &world.vehicles[static_cast<std::size_t>(found - world.vehicles.data())];
+}
+
+Status CommandExecutor::execute(const SetPairRule& command) {
+  if (world_.find(command.a) == nullptr || world_.find(command.b) == nullptr)
+    return Status::stale_handle;
+  if (command.a == command.b || !is_surface_or_none(command.rule.surface))
+    return Status::invalid_argument;
+  const PairRuleRecord record = record_of(command);
+  std::uint32_t count = world_.header.pair_rule_count;
+  if (!set_record(world_.pair_rules, count, record, record.flags != 0))
+    return Status::capacity_exhausted;
+  world_.header.pair_rule_count = static_cast<std::uint8_t>(count);
+  world_.waking.disturb(command.a.index);
+  world_.waking.disturb(command.b.index);
+  return Status::ok;
+}
+
+Status CommandExecutor::execute(const SetSurfaceRule& command) {
+  if (!is_surface_or_none(command.surface)) return Status::invalid_argument;
+  std::uint32_t count = world_.header.surface_rule_count;
+  if (!set_record(world_.surface_rules, count, record_of(command), command.surface.has_value()))
+    return Status::capacity_exhausted;
+  world_.header.surface_rule_count = static_cast<std::uint8_t>(count);
+  world_.waking.wake_all();
+  return Status::ok;
+}
+
+Status CommandExecutor::execute(const SetOneWay& command) {
+  BodyRecord* record = world_.edit(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (record->is_dynamic() || !is_valid(command.one_way)) return Status::invalid_argument;
+  world_.waking.disturb(command.body.index);
+  record->union_c = one_way_bits(command.one_way);
+  return Status::ok;
+}
+
+/// The way of the functions below into a world.
+class WorldRules {
+ public:
+  static const WorldData& of(const World& world) { return *world.impl_; }
+};
+
+PairRule pair_rule_of(const World& world, BodyHandle a, BodyHandle b) {
+  const WorldData& data = WorldRules::of(world);
+  PairRule rule;
+  if (data.find(a) == nullptr || data.find(b) == nullptr) return rule;
+  const PairRuleRecord* record =
+      find_rule(pair_rules_of(data, data.header), rule_key(a.index, b.index));
+  if (record == nullptr) return rule;
+  rule.collides = !record->is_ignored();
+  if (record->has_surface()) rule.surface = record->surface();
+  return rule;
+}
+
+std::optional<PairSurface> surface_rule_of(const World& world, std::uint32_t tag_a,
+                                           std::uint32_t tag_b) {
+  const WorldData& data = WorldRules::of(world);
+  const SurfaceRuleRecord* record =
+      find_rule(surface_rules_of(data, data.header), rule_key(tag_a, tag_b));
+  if (record == nullptr) return {};
+  return record->surface();
+}
+
+OneWay one_way_of(const World& world, BodyHandle body) {
+  const BodyRecord* record = WorldRules::of(world).find(body);
+  LKS_ASSERT(record != nullptr);
+  return record == nullptr ? OneWay{} : one_way_of(*record);
+}
+
+}  // namespace lockstone
