@@ -1,5 +1,5 @@
-// The transport over WebSockets, by libwebsockets: for players in browsers. Present only where
-// LOCKSTONE_WITH_WEBSOCKETS is on.
+// The transport over WebSockets, by libwebsockets: for players in browsers. Its functions are present
+// only where LOCKSTONE_WITH_WEBSOCKETS is on.
 //
 // Packets travel as binary messages over TCP, so that a lost segment holds back all that follow it.
 // TLS keeps the handshake and the addresses private; what the packets say is sealed by
