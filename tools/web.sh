@@ -43,6 +43,7 @@ build_module() {
   build_preset "$1"
   cp "$out/$2/tools/web/lockstone_web.wasm" "$package/dist/lockstone$3.wasm"
   cp "$out/$2/tools/web/lockstone_web_full.wasm" "$package/dist/lockstone-full$3.wasm"
+  cp "$out/$2/tools/web/lockstone_web_session.wasm" "$package/dist/lockstone-session$3.wasm"
 }
 
 package=$out/package

@@ -12,7 +12,7 @@
 namespace lockstone::net {
 
 inline constexpr std::size_t k_message_head_bytes = 1;
-inline constexpr std::size_t k_max_message_bytes =
+inline constexpr std::size_t k_max_websocket_bytes =
     k_message_head_bytes + k_max_reliable_bytes + k_carrier_reserve_bytes;
 inline constexpr const char* k_websocket_protocol = "lockstone";
 

@@ -96,7 +96,7 @@ int on_bytes(Network& network, WebSocketPlace& place, lws* socket, ByteView byte
   if (place.stage != PlaceStage::open) return k_go_on;
   if (lws_frame_is_binary(socket) == 0)
     return refuse(network, place, socket, LWS_CLOSE_STATUS_UNACCEPTABLE_OPCODE);
-  if (bytes.size() > k_max_message_bytes - place.incoming.size())
+  if (bytes.size() > k_max_websocket_bytes - place.incoming.size())
     return refuse(network, place, socket, LWS_CLOSE_STATUS_MESSAGE_TOO_LARGE);
   const bool whole =
       lws_is_final_fragment(socket) != 0 && lws_remaining_packet_payload(socket) == 0;

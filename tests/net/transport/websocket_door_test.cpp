@@ -37,7 +37,7 @@ TEST(WebSocketDoor, BadFramesEndTheConnection) {
       {"no payload", 0x82, 1, std::string(1, '\0')},
       {"unknown channel", 0x82, 2, "\x02z"},
       {"long unreliable", 0x82, 3000, std::string(1, '\1') + std::string(2999, 'z')},
-      {"too long", 0x82, k_max_message_bytes + 1, std::string(k_max_message_bytes + 1, '\0')},
+      {"too long", 0x82, k_max_websocket_bytes + 1, std::string(k_max_websocket_bytes + 1, '\0')},
       {"empty piece", 0x02, 0, ""},
       {"reserved opcode", 0x83, 2, "\0z"},
       {"reserved bits", 0xf2, 2, "\0z"},
