@@ -37,7 +37,7 @@ class Interface:
 
     def read(self, text):
         text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.DOTALL)
-        for name, value in re.findall(r"^#define (L\w+) (\d+)u?$", text, re.MULTILINE):
+        for name, value in re.findall(r"^#define (L\w+) (\d+)u? *$", text, re.MULTILINE):
             self.constants[name] = (int(value), "u32")
         text = re.sub(r"^static inline[^{;]*\{.*?^\}", "", text, flags=re.DOTALL | re.MULTILINE)
         text = re.sub(r"^#.*?(?<!\\)$", "", text, flags=re.DOTALL | re.MULTILINE)

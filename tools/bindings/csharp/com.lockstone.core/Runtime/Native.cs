@@ -794,6 +794,8 @@ namespace Lockstone.Interop
         public const uint LKS_DESYNC_END = 0;
         public const uint LKS_DESYNC_KICK = 1;
         public const uint LKS_DESYNC_RESYNC = 2;
+        public const uint LKS_NO_SLOT = 255;
+        public const uint LKS_SPECTATOR_SLOT = 254;
         public const uint LKS_SESSION_STARTED = 1;
         public const uint LKS_SESSION_TICK = 2;
         public const uint LKS_SESSION_FINISHED = 3;

@@ -1,0 +1,66 @@
+// Browser tabs and native clients in one match. LOCKSTONE_WEB_MATCH=long plays a minute, not ten seconds.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { chromium, withPages } from "./browser.mjs";
+import { hostsBrowsers, withMatch } from "./processes.mjs";
+
+const long = process.env.LOCKSTONE_WEB_MATCH === "long";
+const ticks = long ? 3600 : 600;
+const skip = !chromium ? "Chromium is not installed" : hostsBrowsers() ? false : "no native command with --ws";
+
+const address = (match, slot, more = "") => `/test/match.html?url=${encodeURIComponent(match.url)}&seed=1&name=tab` +
+  `&token=${encodeURIComponent(match.backend.tokenText(slot))}${more}`;
+const reached = (page, tick) => page.waitForFunction((least) => window.played?.ticks >= least, tick, { timeout: 120_000 });
+const over = (page) => page.waitForFunction(() => window.played?.over, null, { timeout: 120_000 });
+const playedBy = (page) => page.evaluate(() => window.played);
+
+/** Native clients behind a relay that loses 5 % of all datagrams in runs of four. */
+async function nativeClients(match, slots) {
+  const relay = match.run("lossy", "--to", `${match.port}`, "--loss", "5", "--burst", "4", "--delay", "10", "--jitter", "5");
+  const port = (await relay.says(/listening on \S+:(\d+)/))[1];
+  return slots.map((slot) => match.run("join", "--token", match.backend.token(slot), "--server", `127.0.0.1:${port}`,
+    "--json", "--quiet", ...(slot % 2 === 1 ? ["--predict", "6"] : [])));
+}
+
+test("two tabs and three native clients play one match, and a reloaded tab comes back", { skip }, async () => {
+  await withMatch(["--players", "5", "--ticks", `${ticks}`, "--input-delay", "6"], (match) => withPages(2, async (pages) => {
+    await Promise.all(pages.map((page, slot) => page.goto(page.origin + address(match, slot, `&predict=${6 * slot}`))));
+    const clients = await nativeClients(match, [2, 3, 4]);
+    await reached(pages[1], ticks / 3);
+    await pages[1].reload();
+    await Promise.all(pages.map(over));
+    await match.server.ended;
+    await Promise.all(clients.map((client) => client.ended));
+
+    const final = /final hash ([0-9a-f]{16})/.exec(match.server.text)[1];
+    for (const client of clients) {
+      const { final_hash, ticks: stepped } = JSON.parse(client.text.slice(client.text.indexOf("{")));
+      assert.deepEqual([final_hash, stepped], [final, ticks]);
+    }
+    const tabs = await Promise.all(pages.map(playedBy));
+    for (const tab of tabs) assert.deepEqual([tab.hashes[ticks - 1], tab.ticks, tab.finish], [final, ticks, "completed"]);
+    assert.deepEqual([tabs[0].statesLoaded, tabs[1].statesLoaded], [0, 1]);
+    // The reloaded tab lacks the ticks before; all that both have are equal.
+    const common = Object.keys(tabs[1].hashes);
+    assert.ok(common.length > ticks / 3 && common.length < ticks);
+    assert.deepEqual(tabs[1].hashes, Object.fromEntries(common.map((tick) => [tick, tabs[0].hashes[tick]])));
+    assert.doesNotMatch(match.server.text, /desync/);
+    console.log(match.server.text.trim());
+  }));
+});
+
+test("a tab whose state is flipped is found and named", { skip }, async () => {
+  await withMatch(["--players", "2", "--ticks", "300", "--on-desync", "kick"], (match) => withPages(1, async ([page]) => {
+    await page.goto(page.origin + address(match, 0));
+    const [client] = await nativeClients(match, [1]);
+    await reached(page, 60);
+    const tick = await page.evaluate(() => (window.client.flipForTests(), window.client.ticks));
+    const [, when, player] = await match.server.says(/desync: tick (\d+).*position\.x/).then(() =>
+      /player (\d).*|desync: tick (\d+)/.exec(match.server.text));
+    await client.ended;
+    await match.server.ended;
+    console.log(tick, when, player, match.server.text.trim());
+    assert.match(match.server.text, new RegExp(`desync: tick ${tick}, .*body \\d+.*position\\.x`));
+  }));
+});
