@@ -42,6 +42,7 @@ class OutgoingMessages {
   }
 
   [[nodiscard]] bool empty() const { return messages_.empty(); }
+  [[nodiscard]] std::size_t count() const { return messages_.size(); }
   /// Of all that wait, margins included.
   [[nodiscard]] std::size_t waiting_bytes() const { return waiting_bytes_; }
 

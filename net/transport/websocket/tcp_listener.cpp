@@ -97,4 +97,11 @@ void keep_system_queue_short(int socket) {
 #endif
 }
 
+void hold_segments(int socket, bool held) {
+#ifdef TCP_CORK
+  const int value = held ? 1 : 0;
+  ::setsockopt(socket, IPPROTO_TCP, TCP_CORK, &value, sizeof value);
+#endif
+}
+
 }  // namespace lockstone::net

@@ -43,4 +43,7 @@ class TcpListener {
 /// system.
 void keep_system_queue_short(int socket);
 
+/// While held, the system puts small writes together into full segments: fewer of them can be lost.
+void hold_segments(int socket, bool held);
+
 }  // namespace lockstone::net

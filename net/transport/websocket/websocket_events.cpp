@@ -128,6 +128,20 @@ int on_pong(const Network& network, WebSocketPlace& place, ByteView stamp) {
   return k_go_on;
 }
 
+// False when the connection is broken. Takes as much as the system does.
+bool write_messages(WebSocketPlace& place, lws* socket) {
+  const bool several = place.outgoing.count() > 1;
+  if (several) hold_segments(lws_get_socket_fd(socket), true);
+  bool good = true;
+  while (good && !place.outgoing.empty() && lws_send_pipe_choked(socket) == 0) {
+    OutgoingMessages::Message message = place.outgoing.take();
+    auto* begin = reinterpret_cast<unsigned char*>(message.bytes.data()) + LWS_PRE;
+    good = lws_write(socket, begin, message.bytes.size() - LWS_PRE, LWS_WRITE_BINARY) >= 0;
+  }
+  if (several) hold_segments(lws_get_socket_fd(socket), false);
+  return good;
+}
+
 int on_writeable(Network& network, WebSocketPlace& place, lws* socket) {
   const bool open = place.stage == PlaceStage::open;
   if (!open && place.ending != RefuseReason::none)
@@ -135,12 +149,7 @@ int on_writeable(Network& network, WebSocketPlace& place, lws* socket) {
   if (open && network.now_us - place.pinged_us >= network.options.ping_us) {
     if (write_ping(network, place, socket) < 0) return k_close;
   }
-  while (!place.outgoing.empty() && lws_send_pipe_choked(socket) == 0) {
-    OutgoingMessages::Message message = place.outgoing.take();
-    auto* begin = reinterpret_cast<unsigned char*>(message.bytes.data()) + LWS_PRE;
-    if (lws_write(socket, begin, message.bytes.size() - LWS_PRE, LWS_WRITE_BINARY) < 0)
-      return k_close;
-  }
+  if (!write_messages(place, socket)) return k_close;
   if (!place.outgoing.empty()) {
     lws_callback_on_writable(socket);
     return k_go_on;
