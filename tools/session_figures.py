@@ -12,7 +12,7 @@ usage: tools/session_figures.py LOCKSTONE [--part PART]… [--seconds N] [--minu
           player is active; then kill -9 of a player and, 5 s later, of the server, and
           whether its log verifies, up to which tick
   web     two players over UDP and two over WebSockets in one match, 25 ± 5 ms one way, at 0, 1 and
-          5 % loss and several input delays: what a lost segment holds back
+          5 % loss and several input delays
 
 Without --part all of them. The output is Markdown. `docs/explanation/network-session.md` has the figures
 of one run.

@@ -1,6 +1,6 @@
-// A relay of TCP connections that delays what a lossy network would have made TCP send again. A model:
-// no segment is lost between the kernels, but each is held back, with all that follow it, for as long
-// as its retransmission would have taken.
+// A relay of TCP connections that delays segments as a lossy network does. A model: the relay loses
+// none, but holds back each that the network would have lost, with all that follow it, for as long as
+// its retransmission would have taken.
 #pragma once
 
 #include <cstdint>

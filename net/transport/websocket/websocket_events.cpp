@@ -166,11 +166,12 @@ int on_peer_closes(WebSocketPlace& place, ByteView code) {
 }
 
 // A client's call that came to nothing is told too.
-int on_gone(Network& network, WebSocketPlace& place) {
+int on_gone(Network& network, WebSocketPlace& place, lws* socket) {
   const bool unmet = place.stage == PlaceStage::door && !network.listens;
   if (place.stage == PlaceStage::open || unmet)
     network.events.add(TransportEventKind::disconnected, network.places.id_of(place), place.ending);
   network.places.release(place);
+  lws_set_opaque_user_data(socket, nullptr);
   return k_go_on;
 }
 
@@ -186,10 +187,10 @@ int on_websocket(lws* socket, lws_callback_reasons reason, void* /*user*/, void*
   if (reason == LWS_CALLBACK_HTTP) return on_http(network_of(socket));
   if (reason == LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION)
     return on_handshake(network_of(socket), socket);
-  if (socket == nullptr || lws_get_opaque_user_data(socket) == nullptr) return k_go_on;
-  Network& network = network_of(socket);
-  WebSocketPlace* place = network.places.find(socket);
+  if (socket == nullptr) return k_go_on;
+  WebSocketPlace* place = WebSocketPlaces::find(socket);
   if (place == nullptr) return k_go_on;
+  Network& network = network_of(socket);
   const ByteView bytes(static_cast<const std::byte*>(in), in == nullptr ? 0 : size);
   switch (reason) {
     case LWS_CALLBACK_ESTABLISHED:
@@ -208,7 +209,7 @@ int on_websocket(lws* socket, lws_callback_reasons reason, void* /*user*/, void*
       return on_peer_closes(*place, bytes);
     case LWS_CALLBACK_CLIENT_CONNECTION_ERROR:
     case LWS_CALLBACK_WSI_DESTROY:
-      return on_gone(network, *place);
+      return on_gone(network, *place, socket);
     default:
       return k_go_on;
   }

@@ -23,10 +23,8 @@ WebSocketPlace* WebSocketPlaces::find(ConnectionId connection) {
 }
 
 WebSocketPlace* WebSocketPlaces::find(const lws* socket) {
-  const auto number = reinterpret_cast<std::uintptr_t>(lws_get_opaque_user_data(socket));
-  if (number == 0 || number > places_.size()) return nullptr;
-  WebSocketPlace& place = places_[number - 1];
-  return place.stage == PlaceStage::free ? nullptr : &place;
+  auto* place = static_cast<WebSocketPlace*>(lws_get_opaque_user_data(socket));
+  return place == nullptr || place->stage == PlaceStage::free ? nullptr : place;
 }
 
 // Connections that this side has ended count for no address.

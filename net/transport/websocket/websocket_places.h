@@ -19,7 +19,7 @@ enum class PlaceStage : std::uint8_t {
   free,
   door,     ///< TCP stands, the WebSocket's handshake does not yet
   open,     ///< the session knows it
-  closing,  ///< the session has ended it, or has heard of its end: what waits is still sent
+  closing,  ///< ended by the session, or the session has heard: messages that wait are still sent
 };
 
 struct WebSocketPlace {
@@ -56,7 +56,7 @@ class WebSocketPlaces {
   [[nodiscard]] WebSocketPlace* find(ConnectionId connection);
 
   /// The one that has this socket, or null.
-  [[nodiscard]] WebSocketPlace* find(const lws* socket);
+  [[nodiscard]] static WebSocketPlace* find(const lws* socket);
 
   /// Whether the address of a caller has as many places as it may have.
   [[nodiscard]] bool is_crowded(const DatagramSource& source) const;

@@ -97,7 +97,7 @@ Result<ConnectionId> WebSocketNetwork::connect(const std::string& url) {
   info.protocol = k_websocket_protocol;
   info.local_protocol_name = k_websocket_protocol;
   info.ssl_connection = tls ? LCCSCF_USE_SSL : 0;
-  info.opaque_user_data = reinterpret_cast<void*>(place - places.all().data() + 1);
+  info.opaque_user_data = place;
   info.pwsi = &place->socket;
   if (lws_client_connect_via_info(&info) != nullptr) return connection;
   if (place->stage == PlaceStage::door && places.id_of(*place) == connection) {
@@ -125,8 +125,7 @@ void WebSocketNetwork::admit_callers() {
       places.release(*place);
       continue;
     }
-    const auto number = static_cast<std::uintptr_t>(place - places.all().data() + 1);
-    lws_set_opaque_user_data(place->socket, reinterpret_cast<void*>(number));
+    lws_set_opaque_user_data(place->socket, place);
   }
 }
 

@@ -1,4 +1,4 @@
-// Peers that wish a WebSocket server ill: none of them takes all its places, its memory or its time.
+// Hostile peers of a WebSocket server: none of them takes all its places, its memory or its time.
 #include <memory>
 #include <vector>
 
@@ -159,7 +159,7 @@ TEST(WebSocketDoor, AFloodEndsTheConnectionAndSaysWhy) {
   EXPECT_EQ(pair.server->counters().floods, 1U);
 }
 
-// A peer that reads nothing: the server keeps what it may, then ends the connection.
+// A peer that reads nothing: the server keeps as much as it may, then ends the connection.
 TEST(WebSocketDoor, ASlowPeerCostsBoundedMemory) {
   WebSocketOptions options;
   options.max_outgoing_bytes = 256 * 1024;

@@ -2,8 +2,8 @@
 // only where LOCKSTONE_WITH_WEBSOCKETS is on.
 //
 // Packets travel as binary messages over TCP, so that a lost segment holds back all that follow it.
-// TLS keeps the handshake and the addresses private; what the packets say is sealed by
-// SecureTransport, as over UDP. Bytes: docs/reference/wire-format.md, "WebSockets".
+// TLS keeps the handshake and the addresses private; the packets are sealed by SecureTransport, as
+// over UDP. Bytes: docs/reference/wire-format.md, "WebSockets".
 #pragma once
 
 #include <cstddef>
