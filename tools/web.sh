@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Builds the npm package `lockstone` in build/web/package, tests it, measures it.
 #
-# usage: tools/web.sh [build | test [--quick] | bench | serve [PORT]]
+# usage: tools/web.sh [build | test [--quick | --long] | bench | serve [PORT]]
 #
 #   build     (default) both WebAssembly builds by Emscripten, the TypeScript, and a package to install,
 #             build/web/lockstone-VERSION.tgz
 #   test      builds, then tests the package in Node and in headless Chromium; --quick plays eight
-#             golden scenes, not all
+#             golden scenes, not all; --long plays the match of tabs and native clients for a minute, not
+#             ten seconds. The match needs the native command, with WebSockets, in build/release or build/demo
 #   bench     builds, then writes docs/benchmarks/web.md: size, load time and ticks beside other
 #             engines. Let nothing else run meanwhile
 #   serve     builds, then serves the testbed on this machine (default port 8000)
@@ -62,13 +63,14 @@ build() {
   (cd "$package" && npm pack --silent --pack-destination "$out" >/dev/null)
 }
 
-# run_tests [--quick]
+# run_tests [--quick | --long]
 run_tests() {
-  local scenes=all
+  local scenes=all match=short
   [[ ${1-} != --quick ]] || scenes=some
+  [[ ${1-} != --long ]] || match=long
   command -v chromium >/dev/null || require_packages web-browser
   say "test the package"
-  LOCKSTONE_WEB_SCENES=$scenes node --test tools/web/test/*.test.mjs
+  LOCKSTONE_WEB_SCENES=$scenes LOCKSTONE_WEB_MATCH=$match node --test tools/web/test/*.test.mjs
 }
 
 command=${1-build}

@@ -55,6 +55,12 @@ function update() {
 }
 setInterval(update, 4);
 
+/** The player of this tab: a tag names its kind, 1, and its slot (tools/arena/tags.h). */
+function follow() {
+  const own = [...client.world.bodies()].find((body) => Number(body.view.userData & 0xffffffn) === 1 + 256 * client.slot);
+  if (own) [picture.sun.target.position.x, , picture.sun.target.position.z] = own.position;
+}
+
 function frame() {
   const { world } = client;
   if (world !== null && client.ticks > 0) {
@@ -62,8 +68,10 @@ function frame() {
       view = new View(world);
       view.reset();
       picture.show(view);
+      Object.assign(picture, { distance: 0.5, rise: 0.6 });
     }
     view.reset();
+    follow();
     picture.draw(view, 1);
   }
   requestAnimationFrame(frame);
