@@ -7,7 +7,7 @@
 #             build/web/lockstone-VERSION.tgz
 #   test      builds, then tests the package in Node and in headless Chromium; --quick plays eight
 #             golden scenes, not all; --long plays the match of tabs and native clients for a minute, not
-#             ten seconds. The match needs the native command, with WebSockets, in build/release or build/demo
+#             ten seconds, with a client under qemu-aarch64. The match needs the native command, with WebSockets, in build/release or build/demo
 #   bench     builds, then writes docs/benchmarks/web.md: size, load time and ticks beside other
 #             engines. Let nothing else run meanwhile
 #   serve     builds, then serves the testbed on this machine (default port 8000)
@@ -63,11 +63,19 @@ build() {
   (cd "$package" && npm pack --silent --pack-destination "$out" >/dev/null)
 }
 
+# build_emulated: the client of another processor, for the long match.
+build_emulated() {
+  require_packages cross
+  cmake --preset aarch64 -B "$out/aarch64" -DLOCKSTONE_PORTABLE_CRYPTO=ON >/dev/null
+  cmake --build "$out/aarch64" --target lockstone_stdio_client
+  export LOCKSTONE_EMULATED="qemu-aarch64 -L /usr/aarch64-linux-gnu $out/aarch64/tools/lockstone_stdio_client"
+}
+
 # run_tests [--quick | --long]
 run_tests() {
   local scenes=all match=short
   [[ ${1-} != --quick ]] || scenes=some
-  [[ ${1-} != --long ]] || match=long
+  [[ ${1-} != --long ]] || { match=long && build_emulated; }
   command -v chromium >/dev/null || require_packages web-browser
   say "test the package"
   LOCKSTONE_WEB_SCENES=$scenes LOCKSTONE_WEB_MATCH=$match node --test tools/web/test/*.test.mjs

@@ -4,10 +4,11 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { chromium, withPages } from "./browser.mjs";
-import { hostsBrowsers, withMatch } from "./processes.mjs";
+import { StdioClient, hostsBrowsers, withMatch } from "./processes.mjs";
 
 const long = process.env.LOCKSTONE_WEB_MATCH === "long";
 const ticks = long ? 3600 : 600;
+const emulated = Boolean(process.env.LOCKSTONE_EMULATED);
 const skip = !chromium ? "Chromium is not installed" : hostsBrowsers() ? false : "no native command with --ws";
 
 const address = (match, slot, more = "") => `/test/match.html?url=${encodeURIComponent(match.url)}&seed=1&name=tab` +
@@ -24,10 +25,11 @@ async function nativeClients(match, slots) {
     "--json", "--quiet", ...(slot % 2 === 1 ? ["--predict", "6"] : [])));
 }
 
-test("two tabs and three native clients play one match, and a reloaded tab comes back", { skip }, async () => {
+test(`two tabs and three ${emulated ? "native clients, one of them emulated," : "native clients"} play one match, and a reloaded tab comes back`, { skip }, async () => {
   await withMatch(["--players", "5", "--ticks", `${ticks}`, "--input-delay", "6", "--bodies", "40"], (match) => withPages(2, async (pages) => {
     await Promise.all(pages.map((page, slot) => page.goto(page.origin + address(match, slot, `&predict=${6 * slot}`))));
-    const clients = await nativeClients(match, [2, 3, 4]);
+    const clients = await nativeClients(match, emulated ? [2, 3] : [2, 3, 4]);
+    if (emulated) clients.push(match.keep(new StdioClient(match.url, match.backend.tokenText(4))));
     await reached(pages[1], ticks / 4);
     await pages[1].reload();
     await Promise.all(pages.map(over));

@@ -1,5 +1,6 @@
 // The native side of a match: `lockstone serve`, `join`, `lossy`, `token`.
 import { spawn, spawnSync } from "node:child_process";
+import { createRequire } from "node:module";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -40,6 +41,41 @@ export class Program {
   }
 }
 
+/**
+ * A client that has no network (tools/web/native/stdio_client.cpp), brought into a match over a WebSocket. LOCKSTONE_EMULATED
+ * is the command that runs it, under an emulator for instance.
+ */
+export class StdioClient {
+  constructor(url, token) {
+    const [program, ...args] = process.env.LOCKSTONE_EMULATED.split(" ");
+    const { WebSocket } = createRequire(`${root}/build/web/node/`)("ws");
+    this.text = "";
+    this.process = spawn(program, [...args, token, "1"], { stdio: ["pipe", "pipe", "pipe"] });
+    this.process.stderr.on("data", (data) => { this.text += data; });
+    this.process.stdin.on("error", () => {}); // it has ended
+    const socket = new WebSocket(url, "lockstone");
+    const opened = new Promise((resolve) => socket.on("open", resolve));
+    let waiting = Buffer.alloc(0);
+    this.process.stdout.on("data", async (data) => {
+      waiting = Buffer.concat([waiting, data]);
+      await opened;
+      for (let size; waiting.length >= 4 && waiting.length >= 4 + (size = waiting.readUInt32LE(0)); waiting = waiting.subarray(4 + size))
+        socket.send(waiting.subarray(4, 4 + size));
+    });
+    socket.on("message", (message) => {
+      const head = Buffer.alloc(4);
+      head.writeUInt32LE(message.length);
+      this.process.stdin.write(Buffer.concat([head, message]));
+    });
+    socket.on("close", () => this.process.stdin.end());
+    this.ended = new Promise((resolve) => this.process.on("close", resolve)).then(() => socket.close());
+  }
+
+  kill() {
+    if (this.process.exitCode === null) this.process.kill();
+  }
+}
+
 /** A folder with a backend's key; tokens of match 1 for its seats. */
 export class Backend {
   constructor() {
@@ -71,12 +107,13 @@ export class Backend {
 export async function withMatch(options, use) {
   const backend = new Backend();
   const programs = [];
-  const run = (...args) => (programs.push(new Program(...args)), programs.at(-1));
+  const keep = (program) => (programs.push(program), program);
+  const run = (...args) => keep(new Program(...args));
   try {
     const server = run("serve", "--key", backend.key, "--match", "1", "--ws", "0", ...options);
     const port = Number((await server.says(/listening on 127\.0\.0\.1:(\d+)/))[1]);
     const url = (await server.says(/listening on (wss?:\S+)/))[1];
-    return await use({ backend, run, server, port, url });
+    return await use({ backend, run, keep, server, port, url });
   } finally {
     for (const program of programs) program.kill();
     await Promise.all(programs.map((program) => program.ended));
