@@ -13,7 +13,7 @@ const skip = !chromium ? "Chromium is not installed" : hostsBrowsers() ? false :
 
 const address = (match, slot, more = "") => `/test/match.html?url=${encodeURIComponent(match.url)}&seed=1&name=tab` +
   `&token=${encodeURIComponent(match.backend.tokenText(slot))}${more}`;
-const reached = (page, tick) => page.waitForFunction((least) => window.played?.ticks >= least, tick, { timeout: 120_000 });
+const reached = (page, tick) => page.waitForFunction((least) => window.played?.ticks >= least, tick, { timeout: long ? 120_000 : 30_000 });
 const over = (page) => page.waitForFunction(() => window.played?.over, null, { timeout: 120_000 });
 const playedBy = (page) => page.evaluate(() => window.played);
 

@@ -114,6 +114,9 @@ export async function withMatch(options, use) {
     const port = Number((await server.says(/listening on 127\.0\.0\.1:(\d+)/))[1]);
     const url = (await server.says(/listening on (wss?:\S+)/))[1];
     return await use({ backend, run, keep, server, port, url });
+  } catch (error) {
+    error.message += `\n${programs.map((program) => program.text).join("\n")}`;
+    throw error;
   } finally {
     for (const program of programs) program.kill();
     await Promise.all(programs.map((program) => program.ended));
