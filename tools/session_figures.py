@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures the network session with real processes over UDP on this machine.
+"""Measures the network session with real processes over UDP and WebSockets on this machine.
 
 usage: tools/session_figures.py LOCKSTONE [--part PART]… [--seconds N] [--minutes N]
 
@@ -11,6 +11,8 @@ usage: tools/session_figures.py LOCKSTONE [--part PART]… [--seconds N] [--minu
   late    a match of 500 bodies that has run for --minutes (10): the time until a third
           player is active; then kill -9 of a player and, 5 s later, of the server, and
           whether its log verifies, up to which tick
+  web     two players over UDP and two over WebSockets in one match, 25 ± 5 ms one way, at 0, 1 and
+          5 % loss and several input delays
 
 Without --part all of them. The output is Markdown. `docs/explanation/network-session.md` has the figures
 of one run.
@@ -108,6 +110,44 @@ def report(delay, stop_seconds, input_delay, answers, text):
     sys.stdout.flush()
 
 
+def web_row(lockstone, folder, seconds, loss, input_delay):
+    match = Match(lockstone, folder, "--players", 4, "--bodies", 20, "--input-delay", input_delay, "--ws", 0)
+    web_port = match.listening(match.server)
+    faults = ("--loss", loss, "--delay", 25, "--jitter", 5)
+    relays = [match.start("lossy", "--to", match.port, *faults), match.start("lossy", "--tcp", "--to", web_port, *faults)]
+    ports = [match.listening(relay) for relay in relays]
+    for slot in (0, 1):
+        match.join(ports[0], "--slot", slot, "--bot-seed", slot)
+    for slot in (2, 3):
+        match.players.append(match.start("join", "--insecure", "--ws", f"ws://127.0.0.1:{ports[1]}/", "--json",
+                                         "--slot", slot, "--bot-seed", slot))
+    match.wait_for("begins")
+    time.sleep(seconds)
+    answers, text, _ = match.finish()
+    for relay in relays:
+        relay.terminate()
+        relay.wait()
+    final = re.search(r"final hash ([0-9a-f]{16})", text)[1]
+    equal = sum(answer["final_hash"] == final for answer in answers)
+    cells = []
+    for pair in (answers[:2], answers[2:]):
+        ticks = sum(answer["ticks"] for answer in pair)
+        cells.append(f"{100 * sum(answer['substituted_inputs'] for answer in pair) / ticks:.2f} %")
+        cells.append(f"{sum(answer['stalled_ms'] for answer in pair) / (ticks / 3600):.0f} ms")
+        cells.append(f"{max(answer['longest_between_ticks_ms'] for answer in pair)} ms")
+    print(f"| {loss} % | {input_delay} ticks | {' | '.join(cells)} | {equal} of 4 |")
+    sys.stdout.flush()
+
+
+def web(lockstone, folder, seconds):
+    print("\n| loss | input delay | UDP: inputs replaced | stalled a minute | longest | WebSocket: inputs replaced "
+          "| stalled a minute | longest | final hashes equal |\n|---|---|---|---|---|---|---|---|---|")
+    for loss in (0, 1, 5):
+        for input_delay in (4, 8, 12, 18):
+            web_row(lockstone, folder, seconds, loss, input_delay)
+    print(f"\n({busy_machine()})")
+
+
 def crowd(lockstone, folder, seconds):
     print("\n| players | spectators | server's processor | down, a player | up, a player | down, a spectator "
           "| final hashes equal |\n|---|---|---|---|---|---|---|")
@@ -165,12 +205,12 @@ def late(lockstone, folder, minutes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("lockstone", type=pathlib.Path)
-    parser.add_argument("--part", action="append", choices=("lossy", "stop", "crowd", "late"))
+    parser.add_argument("--part", action="append", choices=("lossy", "stop", "crowd", "late", "web"))
     parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--minutes", type=float, default=10)
     options = parser.parse_args()
     lockstone = options.lockstone.resolve()
-    parts = options.part or ("lossy", "stop", "crowd", "late")
+    parts = options.part or ("lossy", "stop", "crowd", "late", "web")
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
         if "lossy" in parts:
@@ -180,6 +220,8 @@ def main():
             lossy(lockstone, folder, options.seconds, 50, stop_seconds=3)
         if "crowd" in parts:
             crowd(lockstone, folder, min(options.seconds, 30))
+        if "web" in parts:
+            web(lockstone, folder, min(options.seconds, 30))
         if "late" in parts:
             late(lockstone, folder, options.minutes)
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Builds the npm package `lockstone` in build/web/package, tests it, measures it.
 #
-# usage: tools/web.sh [build | test [--quick] | bench | serve [PORT]]
+# usage: tools/web.sh [build | test [--quick | --long] | bench | serve [PORT]]
 #
 #   build     (default) both WebAssembly builds by Emscripten, the TypeScript, and a package to install,
 #             build/web/lockstone-VERSION.tgz
 #   test      builds, then tests the package in Node and in headless Chromium; --quick plays eight
-#             golden scenes, not all
+#             golden scenes, not all; --long plays the match of tabs and native clients for a minute, not
+#             ten seconds, with a client under qemu-aarch64. The match needs the native command, with WebSockets, in build/release or build/demo
 #   bench     builds, then writes docs/benchmarks/web.md: size, load time and ticks beside other
 #             engines. Let nothing else run meanwhile
 #   serve     builds, then serves the testbed on this machine (default port 8000)
@@ -43,6 +44,7 @@ build_module() {
   build_preset "$1"
   cp "$out/$2/tools/web/lockstone_web.wasm" "$package/dist/lockstone$3.wasm"
   cp "$out/$2/tools/web/lockstone_web_full.wasm" "$package/dist/lockstone-full$3.wasm"
+  cp "$out/$2/tools/web/lockstone_web_session.wasm" "$package/dist/lockstone-session$3.wasm"
 }
 
 package=$out/package
@@ -61,13 +63,22 @@ build() {
   (cd "$package" && npm pack --silent --pack-destination "$out" >/dev/null)
 }
 
-# run_tests [--quick]
+# build_emulated: the client of another processor, for the long match.
+build_emulated() {
+  require_packages cross
+  cmake --preset aarch64 -B "$out/aarch64" -DLOCKSTONE_PORTABLE_CRYPTO=ON >/dev/null
+  cmake --build "$out/aarch64" --target lockstone_stdio_client
+  export LOCKSTONE_EMULATED="qemu-aarch64 -L /usr/aarch64-linux-gnu $out/aarch64/tools/lockstone_stdio_client"
+}
+
+# run_tests [--quick | --long]
 run_tests() {
-  local scenes=all
+  local scenes=all match=short
   [[ ${1-} != --quick ]] || scenes=some
+  [[ ${1-} != --long ]] || { match=long && build_emulated; }
   command -v chromium >/dev/null || require_packages web-browser
   say "test the package"
-  LOCKSTONE_WEB_SCENES=$scenes node --test tools/web/test/*.test.mjs
+  LOCKSTONE_WEB_SCENES=$scenes LOCKSTONE_WEB_MATCH=$match node --test tools/web/test/*.test.mjs
 }
 
 command=${1-build}

@@ -24,7 +24,8 @@ FLOORS = {
                  "step/input", "step/islands", "step/contacts", "step/limits", "step"],
     "world": ["derived", "debug", "state", "data", "phases", "phases/vehicle", "sleep", "phases/narrow", "phases/motion",
               "commands", "query", "history", ""],
-    "net": ["wire", "security", "transport", "transport/udp", "transport/enet", "routing", "session",
+    "net": ["wire", "security/portable", "security", "transport", "transport/udp", "transport/enet",
+            "transport/websocket", "routing", "session",
             "session/client", "session/server/data", "session/server/desync", "session/server/leaving",
             "session/server/entry", "session/server/ticks", "session/server/comparison", "session/server"],
     "replay": ["files", "bytes", "codec", "chunks", "reading", "writing", "verifying"],
@@ -55,6 +56,7 @@ SEAM = {f"core/include/lockstone/{name}.h" for name in ("simulation", "simulatio
 THIRD_PARTY = {
     "xxhash.h": "core/base/",
     "enet/*": "net/",
+    "libwebsockets.h": "net/transport/websocket/",
     "hwy/*": "core/math/wide/ core/kernels/",
 }
 

@@ -12,21 +12,23 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 HEADERS = sorted((HERE / "c/lockstone_c").glob("*.h")) + [HERE.parent / "tool/include/lockstone/game_abi.h"]
-# The WebAssembly of tools/web has these: no sessions, no functions of the caller's.
+# The WebAssembly of tools/web has these: no sockets, no servers, no functions of the caller's.
 WEB_HEADERS = [HERE / f"c/lockstone_c/{name}.h" for name in
                ("base", "units", "assets", "world", "bodies", "joints", "vehicles", "events", "queries",
-                "state")]
-WEB_HEADERS.append(HERE.parent / "web/native/lockstone_web.h")
+                "state", "games", "recorders", "transports", "sessions", "clients")]
+WEB_HEADERS += [HERE.parent / f"web/native/{name}.h" for name in ("lockstone_web", "lockstone_web_session")]
+WEB_ABSENT = re.compile(r"lks_(enet|network|game_create|issue|now)|_on_(sample|predict)$|lks_recorder_create$")
 NOTE = "Written by tools/bindings/generate.py from the C headers, which document each declaration."
 
 
 class Interface:
-    """The declarations of the headers, in their order."""
+    """The declarations of the headers, in their order, without functions whose names `absent` matches."""
 
-    def __init__(self, headers):
+    def __init__(self, headers, absent=None):
         self.aliases, self.constants, self.opaque, self.structs, self.functions, self.callbacks = {}, {}, [], {}, {}, {}
         for header in headers:
             self.read(header.read_text(encoding="utf-8"))
+        self.functions = {name: kind for name, kind in self.functions.items() if not absent or not absent.search(name)}
         named = set(re.findall(r"struct (lockstone_\w+)", " ".join(f[0] + str(f[1]) for f in self.functions.values())))
         self.opaque = [name for name in self.opaque if name not in self.structs]
         missing = named - set(self.structs)
@@ -35,7 +37,7 @@ class Interface:
 
     def read(self, text):
         text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.DOTALL)
-        for name, value in re.findall(r"^#define (L\w+) (\d+)u?$", text, re.MULTILINE):
+        for name, value in re.findall(r"^#define (L\w+) (\d+)u? *$", text, re.MULTILINE):
             self.constants[name] = (int(value), "u32")
         text = re.sub(r"^static inline[^{;]*\{.*?^\}", "", text, flags=re.DOTALL | re.MULTILINE)
         text = re.sub(r"^#.*?(?<!\\)$", "", text, flags=re.DOTALL | re.MULTILINE)
@@ -341,7 +343,7 @@ def typescript(c):
 
 
 def web_interface(c):
-    web = Interface(WEB_HEADERS)
+    web = Interface(WEB_HEADERS, WEB_ABSENT)
     web.functions["lks_verify_log_bytes"] = c.functions["lks_verify_log_bytes"]
     web.structs["lks_log_report"] = c.structs["lks_log_report"]
     return web

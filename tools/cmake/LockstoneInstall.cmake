@@ -44,6 +44,7 @@ install(FILES
   ${PROJECT_BINARY_DIR}/lockstoneConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/tools/cmake/FindENet.cmake
   ${PROJECT_SOURCE_DIR}/tools/cmake/FindSodium.cmake
+  ${PROJECT_SOURCE_DIR}/tools/cmake/FindWebSockets.cmake
   ${PROJECT_SOURCE_DIR}/tools/cmake/FindZstd.cmake
   DESTINATION ${package_dir} COMPONENT development)
 

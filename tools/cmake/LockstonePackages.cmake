@@ -65,7 +65,7 @@ lockstone_describe(dev liblockstone-dev libdevel
 lockstone_describe(tools lockstone utils
   "This package has the command: it hosts and joins matches, verifies, bisects\nand compares their logs, also for games of one's own.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-  "liblockstone-c0 (= ${PROJECT_VERSION}), libenet-dev, libsodium-dev, libzstd-dev")
+  "liblockstone-c0 (= ${PROJECT_VERSION}), libenet-dev, libsodium-dev, libwebsockets-dev, libzstd-dev")
 # The linker's cache learns of the library, and packages that use it of its name.
 file(WRITE ${text}/triggers "activate-noawait ldconfig\n")
 file(WRITE ${text}/shlibs "liblockstone_c 0 liblockstone-c0 (>= ${PROJECT_VERSION})\n")

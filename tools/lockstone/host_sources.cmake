@@ -11,6 +11,7 @@ set(lockstone_host_sources
   match/room.cpp
   match/rooms.cpp
   match/secrets.cpp
+  match/web_players.cpp
   support/build_text.cpp
   support/tar.cpp)
 list(TRANSFORM lockstone_host_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)

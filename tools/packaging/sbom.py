@@ -20,6 +20,7 @@ LIBRARIES = [
     ("libhwy-dev", "Apache-2.0", "STATIC_LINK", "headers, compiled into the core", "LOCKSTONE_WITH_HIGHWAY"),
     ("libenet-dev", "MIT", "DYNAMIC_LINK", "net, the C library, the command", "LOCKSTONE_WITH_ENET"),
     ("libsodium-dev", "ISC", "DYNAMIC_LINK", "net, replay, the C library, the command", "LOCKSTONE_WITH_SODIUM"),
+    ("libwebsockets-dev", "MIT", "DYNAMIC_LINK", "net, the command", "LOCKSTONE_WITH_WEBSOCKETS"),
     ("libzstd-dev", "BSD-3-Clause", "DYNAMIC_LINK", "replay, the C library, the command", "LOCKSTONE_WITH_ZSTD"),
     ("libcli11-dev", "BSD-3-Clause", "STATIC_LINK", "headers, compiled into the command", None),
     ("libfmt-dev", "MIT", "STATIC_LINK", "headers, compiled into the command", None),

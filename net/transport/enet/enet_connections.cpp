@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint32_t k_index_bits = 12;  // of a ConnectionId; the rest is the generation
 constexpr std::uint32_t k_index_mask = (1U << k_index_bits) - 1;
+constexpr std::uint32_t k_generations = 1U << (k_connection_bits - k_index_bits);
 static_assert(k_max_socket_connections <= k_index_mask + 1);
 
 // A session counts its own time-outs; ENet's, in which this plays a part, shall not be the first.
@@ -68,8 +69,8 @@ ConnectionId EnetConnections::adopt(ENetPeer* peer) {
   connection.ending = RefuseReason::none;
   connection.stats = {};
   if (!data_.listens) prepare(connection, data_.checksum);
-  // 20 bits of generation, never zero, so that no id is k_no_connection.
-  connection.generation = connection.generation + 1 >= (1U << 20) ? 1 : connection.generation + 1;
+  // Never zero, so that no id is k_no_connection.
+  connection.generation = connection.generation + 1 >= k_generations ? 1 : connection.generation + 1;
   enet_peer_timeout(peer, k_timeout_doublings, timeout_ms_, timeout_ms_);
   return id_of(peer);
 }

@@ -14,7 +14,7 @@
 #include "net/transport/enet/enet_commands.h"
 #include "net/transport/enet/enet_data.h"
 #include "net/transport/enet/enet_datagram.h"
-#include "net/transport/enet/flood_watch.h"
+#include "net/transport/flood_watch.h"
 #include "net/transport/udp/datagram_source.h"
 
 namespace lockstone::net {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "net/transport/enet/flood_watch.h"
+#include "net/transport/flood_watch.h"
 #include "tests/net/security/secure_fixture.h"
 
 namespace lockstone::net::test {

@@ -62,6 +62,9 @@ struct ClientBox final : net::ClientObserver, net::InputSource, net::InputPredic
   void* predict_user = nullptr;
   std::unique_ptr<net::Client> client;
   bool updating = false;
+  std::vector<std::byte> config;   ///< of the match, from the server
+  std::shared_ptr<LogWriter> log;  ///< null: not recorded
+  bool keyframes = true;           ///< the simulation stands at the tick that was confirmed last
 
   ClientBox() = default;
   ClientBox(const ClientBox&) = delete;
@@ -97,8 +100,15 @@ struct ClientBox final : net::ClientObserver, net::InputSource, net::InputPredic
     say(LKS_LEVEL_INFO, "joined as player " + std::to_string(slot));
   }
   void match_started() override { events.add(event_of(LKS_SESSION_STARTED)); }
-  void tick_stepped(std::uint64_t tick, std::span<const PlayerInput>, std::uint64_t hash) override {
+  void tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                    std::uint64_t hash) override {
     at_tick(LKS_SESSION_TICK, tick, hash);
+    if (log == nullptr) return;
+    replay::Recorder& recorder = *log->recorder;
+    Status status = recorder.record_tick(tick, inputs, hash);
+    if (status == Status::ok && keyframes && recorder.keyframe_due())
+      status = recorder.keyframe(*client->simulation());
+    if (status != Status::ok) log.reset();
   }
   void server_silent(std::int64_t silent_us) override {
     at_tick(LKS_SESSION_SILENT, 0, 0, silent_us);
@@ -113,7 +123,10 @@ struct ClientBox final : net::ClientObserver, net::InputSource, net::InputPredic
     event.tick = ticks;
     events.add(event, std::string(to_string(reason)));
   }
-  void state_loaded(std::uint64_t ticks) override { at_tick(LKS_SESSION_STATE_LOADED, ticks); }
+  void state_loaded(std::uint64_t ticks) override {
+    log.reset();  // its ticks would not follow each other
+    at_tick(LKS_SESSION_STATE_LOADED, ticks);
+  }
   void player_active(std::uint8_t slot, std::uint64_t tick) override {
     lks_session_event event = event_of(LKS_SESSION_PLAYER_ACTIVE);
     event.slot = slot;
@@ -184,7 +197,11 @@ lks_status lks_client_create(const lks_client_def* def, const lks_game* game,
     net::ClientParts parts;
     parts.transport = box->carrier->session;
     parts.connection = connection;
-    parts.factory = box->game->make;
+    parts.factory = [owner = box.get()](ByteView bytes) {
+      owner->config.assign(bytes.begin(), bytes.end());
+      return owner->game->make(bytes);
+    };
+    box->keyframes = config.prediction_ticks == 0;
     parts.inputs = box.get();
     parts.observer = box.get();
     parts.predictor = box.get();
@@ -303,4 +320,26 @@ lks_status lks_client_reconnect(lks_client* client, lks_connection connection) {
 
 lks_status lks_client_leave(lks_client* client) {
   return call([&] { write(client).client->leave(); });
+}
+
+lks_status lks_client_record(lks_client* client, const lks_recorder_def* def, lks_recorder** out) {
+  return call([&] {
+    ClientBox& box = write(client);
+    required(out, "out");
+    const Simulation* simulation = box.client->simulation();
+    if (simulation == nullptr) throw Failure{LKS_NOT_FOUND, "the match is not known yet"};
+    if (box.log != nullptr) throw invalid("client", "is recorded already");
+    if (!box.keyframes && simulation->tick() > 0)
+      throw Failure{LKS_INCOMPATIBLE, "the client predicts, and has stepped ticks"};
+    auto match = std::make_shared<Match>();
+    match->game = box.game;
+    match->config = box.config;
+    auto sink = std::make_unique<replay::MemorySink>();
+    const replay::MemorySink* memory = sink.get();
+    auto made = std::make_unique<lks_recorder>();
+    made->log = LogWriter::begin(def, std::move(match), *simulation, std::move(sink));
+    made->log->memory = memory;
+    box.log = made->log;
+    *out = made.release();
+  });
 }

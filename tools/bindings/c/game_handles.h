@@ -8,6 +8,7 @@
 
 #include <lockstone/net/keys.h>
 #include <lockstone/net/transport.h>
+#include <lockstone/net/transport_messages.h>
 #include <lockstone/net/transport_secure.h>
 #include <lockstone/net/transport_sim.h>
 #include <lockstone/replay/recorder.h>
@@ -35,10 +36,11 @@ struct Match {
 /// A socket, or one end of a network, and the encryption around it.
 struct Carrier {
   std::shared_ptr<net::SimNetwork> network;  ///< of a network within the process
-  std::unique_ptr<net::Transport> socket;    ///< an EnetTransport
+  std::unique_ptr<net::Transport> socket;    ///< an EnetTransport or MessageTransport
   std::unique_ptr<net::SystemRandom> random;
   std::unique_ptr<net::SecureTransport> secure;
-  net::Transport* session = nullptr;     ///< the part that a session drives
+  net::MessageTransport* carried = nullptr;  ///< the socket, where the program carries its messages
+  net::Transport* session = nullptr;         ///< the part that a session drives
   std::vector<net::HostPort> servers{};  ///< of a client, in the order in which to call them
   std::size_t next_server = 0;
   bool in_session = false;
@@ -46,7 +48,12 @@ struct Carrier {
 
 /// A log being written.
 struct LogWriter {
-  std::shared_ptr<const Match> match;
+  /// Begins it at the simulation's tick.
+  static std::shared_ptr<LogWriter> begin(const lks_recorder_def* def, std::shared_ptr<Match> match,
+                                          const Simulation& simulation,
+                                          std::unique_ptr<replay::Sink> sink);
+
+  std::shared_ptr<const Match> match;  ///< without a simulation: of a client
   std::unique_ptr<replay::Sink> sink;
   const replay::MemorySink* memory = nullptr;  ///< the sink of a log in memory
   std::optional<replay::Recorder> recorder;

@@ -1,5 +1,6 @@
 // Games and simulations.
 #include "tools/bindings/c/game_handles.h"
+#include "tools/bindings/c/handles.h"
 #include "tools/scenes/play.h"
 #include "tools/tool/loaded_simulation.h"
 
@@ -137,6 +138,18 @@ lks_status lks_simulation_match(const lks_simulation* simulation, void** out) {
   return call([&] {
     const auto* loaded = dynamic_cast<const tool::LoadedSimulation*>(&read(simulation));
     required(out, "out") = loaded == nullptr ? nullptr : loaded->match();
+  });
+}
+
+lks_status lks_simulation_world(const lks_simulation* simulation, lks_world** out) {
+  return call([&] {
+    const std::shared_ptr<Simulation>& match = required(simulation, "simulation").simulation;
+    required(out, "out");
+    const World* seen = scenes::world_of(*match);
+    if (seen == nullptr) throw Failure{LKS_NOT_FOUND, "the game is not one of the built-in ones"};
+    auto world = std::make_unique<lks_world>();
+    world->shown = {match, seen};
+    *out = world.release();
   });
 }
 

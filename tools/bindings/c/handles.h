@@ -13,14 +13,18 @@
 #include "tools/bindings/c/call.h"
 #include "tools/scenes/play.h"
 
-/// A world of the caller's, or a built-in scene.
+/// A world of the caller's, a built-in scene, or the world of a match.
 struct lks_world {
   std::unique_ptr<lockstone::ThreadPool> threads;  // outlives the world that steps on it
   std::optional<lockstone::World> own;
   std::optional<lockstone::RollbackHistory> history;  // of `own`
   std::unique_ptr<lockstone::scenes::ScenePlay> scene;
+  std::shared_ptr<const lockstone::World> shown;  // of a match, which a session steps
 
-  [[nodiscard]] const lockstone::World& world() const { return scene ? scene->world() : *own; }
+  [[nodiscard]] const lockstone::World& world() const {
+    if (shown != nullptr) return *shown;
+    return scene ? scene->world() : *own;
+  }
 };
 
 struct lks_assets {
@@ -39,6 +43,9 @@ inline const World& read(const lks_world* world) {
 
 /// Throws for a scene too: a scene relies on the bodies and joints that it created.
 World& write(lks_world* world);
+
+/// Throws for the world of a match.
+const lks_world& saved(const lks_world* world);
 
 /// Applies a command; throws when it is refused.
 void order(lks_world* world, const Command& command);

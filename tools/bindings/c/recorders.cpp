@@ -22,11 +22,12 @@ void must(Status status, const char* what) {
   }
 }
 
-replay::MatchMetadata metadata(const lks_recorder_def& def, const Match& match) {
+replay::MatchMetadata metadata(const lks_recorder_def& def, const Match& match,
+                               std::uint64_t start_tick) {
   replay::MatchMetadata data;
   data.match_id = def.match_id;
   data.seed = def.seed;
-  data.start_tick = match.simulation->tick();
+  data.start_tick = start_tick;
   data.build = text_in(def.build, "def.build");
   data.game = match.game->name;
   data.game_version = match.game->version;
@@ -39,26 +40,36 @@ std::shared_ptr<Match> own_match(const lks_simulation* simulation) {
   return match;
 }
 
-std::unique_ptr<lks_recorder> begin(const lks_recorder_def& def, std::shared_ptr<Match> match,
+std::unique_ptr<lks_recorder> begin(const lks_recorder_def* def, std::shared_ptr<Match> match,
                                     std::unique_ptr<replay::Sink> sink) {
+  const Simulation& simulation = *match->simulation;
+  auto made = std::make_unique<lks_recorder>();
+  made->log = LogWriter::begin(def, std::move(match), simulation, std::move(sink));
+  return made;
+}
+
+}  // namespace
+
+std::shared_ptr<LogWriter> lockstone::c::LogWriter::begin(const lks_recorder_def* from,
+                                            std::shared_ptr<Match> match,
+                                            const Simulation& simulation,
+                                            std::unique_ptr<replay::Sink> sink) {
+  const lks_recorder_def def = take(from, raw_def(), "def");
   auto log = std::make_shared<LogWriter>();
   log->match = match;
   log->sink = std::move(sink);
   replay::RecorderOptions options;
   options.keyframe_interval_ticks = def.keyframe_interval_ticks;
   options.compress = flag(def.compress, "def.compress");
-  options.keyframe_bytes_max = match->simulation->snapshot_bytes_max(SnapshotKind::canonical);
+  options.keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical);
   log->recorder.emplace(*log->sink, options);
-  must(log->recorder->begin(match->simulation->info(), match->config, metadata(def, *match)),
+  must(log->recorder->begin(simulation.info(), match->config,
+                            metadata(def, *match, simulation.tick())),
        "the log could not be begun");
-  if (match->simulation->tick() > 0)
-    must(log->recorder->keyframe(*match->simulation), "the first state could not be written");
-  auto made = std::make_unique<lks_recorder>();
-  made->log = std::move(log);
-  return made;
+  if (simulation.tick() > 0)
+    must(log->recorder->keyframe(simulation), "the first state could not be written");
+  return log;
 }
-
-}  // namespace
 
 lks_status lks_recorder_def_init(lks_recorder_def* def, size_t size) {
   return call([&] { give(raw_def(), def, size, "def"); });
@@ -72,19 +83,18 @@ lks_status lks_recorder_create(const lks_recorder_def* def, const lks_simulation
     required(out, "out");
     auto sink = replay::FileSink::create(&required(path, "path"), flag(raw.replace, "def.replace"));
     if (!sink.ok()) must(sink.status(), path);
-    *out = begin(raw, std::move(match), std::move(sink).value()).release();
+    *out = begin(def, std::move(match), std::move(sink).value()).release();
   });
 }
 
 lks_status lks_recorder_create_in_memory(const lks_recorder_def* def,
                                          const lks_simulation* simulation, lks_recorder** out) {
   return call([&] {
-    const lks_recorder_def raw = take(def, raw_def(), "def");
     std::shared_ptr<Match> match = own_match(simulation);
     required(out, "out");
     auto sink = std::make_unique<replay::MemorySink>();
     const replay::MemorySink* memory = sink.get();
-    auto made = begin(raw, std::move(match), std::move(sink));
+    auto made = begin(def, std::move(match), std::move(sink));
     made->log->memory = memory;
     *out = made.release();
   });
@@ -98,6 +108,8 @@ lks_status lks_recorder_step(lks_recorder* recorder, const void* inputs, size_t 
                              const uint32_t* origins) {
   return call([&] {
     LogWriter& log = *required(recorder, "recorder").log;
+    if (log.match->simulation == nullptr)
+      throw Failure{LKS_READ_ONLY, "a client records its ticks itself"};
     const Simulation& simulation = *log.match->simulation;
     const FlatInputs flat(simulation.info(), inputs, bytes, origins);
     must(log.recorder->record_step(simulation, flat.list()), "the tick was not recorded");

@@ -43,7 +43,7 @@ lks_status lks_hash(const lks_world* world, uint64_t* out) {
   return call([&] {
     const lks_world& source = handle(world);
     required(out, "out") =
-        source.scene ? source.scene->simulation().hash() : source.own->hash().total;
+        source.scene ? source.scene->simulation().hash() : source.world().hash().total;
   });
 }
 
@@ -56,7 +56,7 @@ lks_status lks_part_hashes(const lks_world* world, lks_hashes* out) {
 
 lks_status lks_snapshot_bytes_max(const lks_world* world, uint32_t kind, size_t* out) {
   return call([&] {
-    const lks_world& source = handle(world);
+    const lks_world& source = saved(world);
     required(out, "out") = bytes_max(source, kind_of(kind));
   });
 }
@@ -64,7 +64,7 @@ lks_status lks_snapshot_bytes_max(const lks_world* world, uint32_t kind, size_t*
 lks_status lks_save(const lks_world* world, uint32_t kind, void* out, size_t capacity,
                     size_t* bytes) {
   return call([&] {
-    const lks_world& source = handle(world);
+    const lks_world& source = saved(world);
     const SnapshotKind form = kind_of(kind);
     required(bytes, "bytes");
     const std::span room(static_cast<std::byte*>(array(out, capacity, "out")), capacity);
@@ -77,7 +77,7 @@ lks_status lks_save(const lks_world* world, uint32_t kind, void* out, size_t cap
 
 lks_status lks_load(lks_world* world, uint32_t kind, const void* bytes, size_t count) {
   return call([&] {
-    required(world, "world");
+    static_cast<void>(saved(&required(world, "world")));
     const SnapshotKind form = kind_of(kind);
     const ByteView state = bytes_of(bytes, count, "bytes");
     const Status status =
@@ -90,7 +90,7 @@ lks_status lks_describe_difference(const lks_world* world, const void* here, siz
                                    const void* there, size_t there_bytes, uint32_t* differs,
                                    char* text, size_t capacity) {
   return call([&] {
-    const lks_world& source = handle(world);
+    const lks_world& source = saved(world);
     const ByteView left = bytes_of(here, here_bytes, "here");
     const ByteView right = bytes_of(there, there_bytes, "there");
     array(text, capacity, "text");

@@ -6,9 +6,15 @@
 
 namespace lockstone::c {
 
+const lks_world& saved(const lks_world* world) {
+  if (handle(world).shown != nullptr)
+    throw Failure{LKS_READ_ONLY, "the world of a match is stepped and saved by its session"};
+  return *world;
+}
+
 World& write(lks_world* world) {
   required(world, "world");
-  if (world->scene) throw Failure{LKS_READ_ONLY, "a built-in scene takes no command"};
+  if (saved(world).scene) throw Failure{LKS_READ_ONLY, "a built-in scene takes no command"};
   return *world->own;
 }
 
@@ -165,7 +171,7 @@ lks_status lks_config_hash(const lks_world_def* def, const lks_assets* assets, u
 
 lks_status lks_world_set_threads(lks_world* world, uint32_t threads) {
   return call([&] {
-    required(world, "world");
+    static_cast<void>(saved(&required(world, "world")));
     if (threads < 1 || threads > k_max_workers) throw invalid("threads", "must be 1 … 64");
     auto pool = threads > 1 ? std::make_unique<ThreadPool>(threads) : nullptr;
     set_runner(*world, pool.get());
@@ -175,7 +181,7 @@ lks_status lks_world_set_threads(lks_world* world, uint32_t threads) {
 
 lks_status lks_step(lks_world* world, lks_step_report* report) {
   return call([&] {
-    required(world, "world");
+    static_cast<void>(saved(&required(world, "world")));
     if (report != nullptr) check_size<lks_step_report>(report->size, "report");
     const StepReport done = step(*world);
     if (report != nullptr) give(raw_report(done), report, report->size, "report");

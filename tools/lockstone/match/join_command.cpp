@@ -12,11 +12,10 @@
 #include <nlohmann/json.hpp>
 
 #include <lockstone/net/client.h>
-#include <lockstone/net/transport_enet.h>
-#include <lockstone/net/transport_secure.h>
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/logs/state/flipping_simulation.h"
+#include "tools/lockstone/match/caller.h"
 #include "tools/lockstone/match/secrets.h"
 #include "tools/lockstone/match/servers.h"
 #include "tools/lockstone/support/build_text.h"
@@ -31,6 +30,7 @@ namespace {
 
 struct JoinOptions {
   std::string server;
+  std::string web;
   std::string host = "127.0.0.1";
   std::uint16_t port = 0;
   std::string token;
@@ -204,71 +204,6 @@ int conclude(const JoinOptions& options, const net::Client& client, const JoinOb
   return k_ok;
 }
 
-// A connection on its way, encrypted if there is a token.
-struct Caller {
-  net::SystemRandom random;
-  std::unique_ptr<net::EnetTransport> enet;
-  std::unique_ptr<net::SecureTransport> secure;
-  net::ConnectionId connection = net::k_no_connection;
-
-  [[nodiscard]] net::Transport* transport() const {
-    if (secure != nullptr) return secure.get();
-    return enet.get();
-  }
-};
-
-/// Where the server may be: the addresses of its name, or of the token's servers.
-class Targets {
- public:
-  explicit Targets(std::vector<net::HostPort> list) : list_(std::move(list)) {}
-
-  [[nodiscard]] std::size_t count() const { return list_.size(); }
-  [[nodiscard]] const net::HostPort& current() const { return list_[at_]; }
-  void go_on() { at_ = (at_ + 1) % list_.size(); }
-
- private:
-  std::vector<net::HostPort> list_;
-  std::size_t at_ = 0;
-};
-
-// Goes on from targets that the system cannot call, such as IPv6 where it has none.
-Result<net::ConnectionId> call_next(net::EnetTransport& enet, Targets& targets) {
-  for (std::size_t tries = 1;; ++tries) {
-    const net::HostPort& target = targets.current();
-    const Result<net::ConnectionId> connection = enet.connect(target.host, target.port);
-    if (connection || tries == targets.count()) return connection;
-    targets.go_on();
-  }
-}
-
-// Null, with a complaint, when the system refuses.
-std::unique_ptr<Caller> call(Targets& targets, const std::optional<net::ConnectToken>& token) {
-  auto caller = std::make_unique<Caller>();
-  net::EnetOptions enet;
-  if (token) {
-    enet.link_key = token->link_key;
-    enet.match_tag = net::make_match_tag(token->grant.match);
-  }
-  auto opened = net::EnetTransport::open(enet);
-  if (!opened) {
-    complain(fmt::format("no socket: {}", to_string(opened.status())));
-    return nullptr;
-  }
-  caller->enet = std::move(opened).value();
-  if (token) {
-    caller->secure =
-        std::move(net::SecureTransport::join(*caller->enet, *token, caller->random)).value();
-  }
-  const Result<net::ConnectionId> connection = call_next(*caller->enet, targets);
-  if (!connection) {
-    complain(fmt::format("cannot call {}: {}", targets.current().to_text(),
-                         to_string(connection.status())));
-    return nullptr;
-  }
-  caller->connection = connection.value();
-  return caller;
-}
-
 /// Plays to the end. A lost connection is made again, for a while; until it is in, by the next
 /// target.
 class Play {
@@ -308,7 +243,7 @@ class Play {
     if (pause_seconds_ == 0) return plan_call(now);
     if (now < call_seconds_) return true;
     pause_seconds_ = 0;
-    const Result<net::ConnectionId> connection = call_next(*caller_.enet, targets_);
+    const Result<net::ConnectionId> connection = caller_.call_next(targets_);
     if (!connection || !client_.reconnect(connection.value())) return connection.ok();
     ++observer_.reconnects;
     return true;
@@ -374,6 +309,10 @@ int set_security(const JoinOptions& options, std::optional<net::ConnectToken>& t
 // Not k_ok, with a complaint, if nothing says where the server is.
 int find_targets(const JoinOptions& options, const std::optional<net::ConnectToken>& token,
                  std::vector<net::HostPort>& targets) {
+  if (!options.web.empty()) {
+    targets.push_back({options.web, 0});
+    return k_ok;
+  }
   net::HostPort server{options.host, options.port};
   if (!options.server.empty()) {
     const Result<net::HostPort> read = net::HostPort::from_text(options.server);
@@ -417,7 +356,7 @@ int join(const Games& games, const JoinOptions& options) {
   config.build = build_text(build_of(joined.game()));
   config.prediction_ticks = static_cast<std::uint8_t>(options.predict);
   const net::Client::Created created = net::Client::create(
-      config, {caller->transport(), caller->connection, joined.factory(), &inputs, &observer});
+      config, {caller->transport(), caller->connection(), joined.factory(), &inputs, &observer});
   if (created.client == nullptr) {
     complain(std::string(to_string(created.error)));
     return k_usage;
@@ -431,7 +370,7 @@ int join(const Games& games, const JoinOptions& options) {
 
 void add_join_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<JoinOptions>();
-  CLI::App* command = app.add_subcommand("join", "Play in a match over UDP, as a bot");
+  CLI::App* command = app.add_subcommand("join", "Play in a match, as a bot");
   CLI::Option* server = command->add_option(
       "--server", options->server,
       "Like game.example:7777, 1.2.3.4:7777 or [::1]:7777; default: the token's servers in turn");
@@ -439,6 +378,8 @@ void add_join_command(CLI::App& app, Tool& tool) {
       ->capture_default_str()
       ->excludes(server);
   command->add_option("--port", options->port, "UDP port of --host")->excludes(server);
+  command->add_option("--ws", options->web, "Like ws://127.0.0.1:9000/: over a WebSocket, not UDP")
+      ->excludes(server);
   command->add_option("--token", options->token, "File with a token of `token issue`");
   command->add_option("--bot-seed", options->bot_seed, "Seed of the choices that the bot makes")
       ->capture_default_str();

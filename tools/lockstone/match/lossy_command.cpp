@@ -13,6 +13,7 @@
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/interrupt.h"
 #include "tools/relay/lossy_relay.h"
+#include "tools/relay/tcp_relay.h"
 #include "tools/relay/trial_match.h"
 #include "tools/tool/start_match.h"
 #include "tools/tool/tool_command.h"
@@ -34,6 +35,7 @@ struct LossyOptions {
   double pause = 0;
   unsigned players = 4;
   unsigned input_delay = 4;
+  bool tcp = false;
 };
 
 std::uint32_t ppm(double percent) {
@@ -63,6 +65,34 @@ void print_counters(const relay::RelayCounters& counters) {
       "{} cut short, {} refused\n",
       counters.received, counters.delivered, counters.lost, counters.duplicated, counters.held_back,
       counters.flipped, counters.truncated, counters.refused);
+}
+
+int relay_tcp(const LossyOptions& options) {
+  using namespace std::chrono_literals;
+  const auto local = relay::Endpoint::from_text(options.bind, options.port);
+  const auto server = relay::Endpoint::from_text(options.host, options.to);
+  if (!local || !server) {
+    complain("addresses are numeric, like 127.0.0.1");
+    return k_usage;
+  }
+  const relay::SegmentFaults faults{ppm(options.loss), to_us(options.delay), to_us(options.jitter)};
+  const auto opened = relay::TcpRelay::open(local.value(), server.value(), faults, options.seed);
+  if (!opened) {
+    complain(fmt::format("cannot listen on {}:{}", options.bind, options.port));
+    return k_unavailable;
+  }
+  fmt::print("listening on {}:{}\n", options.bind, opened.value()->port());
+  std::fflush(stdout);
+  catch_interrupts();
+  const Stopwatch watch;
+  while (!interrupted() && (options.seconds <= 0 || watch.seconds() < options.seconds)) {
+    opened.value()->pump(watch.microseconds());
+    std::this_thread::sleep_for(500us);
+  }
+  const relay::SegmentCounters& counters = opened.value()->counters();
+  fmt::print("relayed: {} connections, {} segments, {} lost, held back by {} ms at most\n",
+             counters.connections, counters.segments, counters.lost, counters.longest_us / 1000);
+  return k_ok;
 }
 
 int relay_to_server(const LossyOptions& options) {
@@ -169,11 +199,13 @@ void add_fault_options(CLI::App& command, LossyOptions& options) {
 void add_lossy_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<LossyOptions>();
   CLI::App* command = app.add_subcommand(
-      "lossy", "Relay UDP as a bad network would, to a server or in a match of bots");
+      "lossy", "Relay UDP or TCP as a bad network would, to a server or in a match of bots");
   command->add_option("--bind", options->bind, "Numeric IPv4 address")->capture_default_str();
   command->add_option("--port", options->port, "Where clients call; 0: the system chooses");
   command->add_option("--host", options->host, "The server's address")->capture_default_str();
   CLI::Option* to = command->add_option("--to", options->to, "The server's port");
+  command->add_flag("--tcp", options->tcp,
+                    "Relay TCP: --loss delays a segment, and all behind it, as its repair would");
   command->add_option("--seconds", options->seconds,
                       "Stop after this time; default: when interrupted");
   add_fault_options(*command, *options);
@@ -194,8 +226,9 @@ void add_lossy_command(CLI::App& app, Tool& tool) {
       tool.exit_code = k_usage;
       return;
     }
-    tool.exit_code =
-        options->match > 0 ? play_match(tool.games, *options) : relay_to_server(*options);
+    tool.exit_code = options->match > 0 ? play_match(tool.games, *options)
+                     : options->tcp     ? relay_tcp(*options)
+                                        : relay_to_server(*options);
   });
 }
 

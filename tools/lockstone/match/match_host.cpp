@@ -243,6 +243,7 @@ struct MatchHost::Impl final : net::ServerObserver {
     asked.enet.max_connections = connections();
     asked.enet.max_connections_per_address = options.max_per_address;
     if (options.fast) asked.enet.limits = net::DatagramLimits::none();
+    asked.web = options.web.options(asked.enet);
     asked.key = options.key;
     asked.match = options.match;
     asked.addresses = options.addresses;
@@ -272,6 +273,10 @@ std::unique_ptr<MatchHost> MatchHost::create(const Games& games, const MatchOpti
 
 std::uint16_t MatchHost::port() const {
   return impl_->socket == nullptr ? std::uint16_t{0} : impl_->socket->port();
+}
+
+std::string MatchHost::web_address() const {
+  return impl_->socket == nullptr ? std::string() : impl_->socket->web_address();
 }
 
 bool MatchHost::begun() const {
@@ -384,6 +389,7 @@ MatchMetrics MatchHost::metrics() const {
   metrics.connections = impl_->server->connections();
   if (impl_->socket != nullptr) {
     metrics.socket = impl_->socket->socket_counters();
+    metrics.web = impl_->socket->web_counters();
     metrics.security = impl_->socket->security_counters();
   }
   for (unsigned slot = 0; slot < impl_->match.simulation->info().player_count; ++slot) {

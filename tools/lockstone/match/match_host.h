@@ -15,6 +15,7 @@
 
 #include "tools/lockstone/match/metrics.h"
 #include "tools/lockstone/match/tick_lateness.h"
+#include "tools/lockstone/match/web_players.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/tool/start_match.h"
 
@@ -25,6 +26,7 @@ struct MatchOptions {
   std::uint64_t ticks = 3600;  ///< 0: until interrupted
   std::string bind = "127.0.0.1";
   std::uint16_t port = 0;  ///< 0: the system chooses
+  WebPlayers web;
   std::size_t max_per_address = net::EnetOptions{}.max_connections_per_address;
   unsigned input_delay = 4;
   double drop_after_s = 5;  ///< of silence
@@ -73,6 +75,8 @@ class MatchHost {
 
   /// 0 without a socket.
   [[nodiscard]] std::uint16_t port() const;
+  /// Where browsers call; empty: nowhere.
+  [[nodiscard]] std::string web_address() const;
 
   /// Does the work that is due, and rests a moment when there was none; false once the match is
   /// over.

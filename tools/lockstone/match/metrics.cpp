@@ -46,7 +46,7 @@ struct MatchFigure {
 constexpr std::size_t k_own_figures = 10;  // the others are of the socket
 
 using M = MatchMetrics;
-constexpr std::array<MatchFigure, 29> k_match_figures{
+constexpr std::array<MatchFigure, 43> k_match_figures{
     {{"ticks", "counter", [](const M& m) { return m.ticks; }},
      {"spectators", "gauge", [](const M& m) { return std::uint64_t{m.spectators}; }},
      {"desyncs", "counter", [](const M& m) { return m.desyncs; }},
@@ -72,6 +72,20 @@ constexpr std::array<MatchFigure, 29> k_match_figures{
      {"connects_repeated", "counter", [](const M& m) { return m.socket.repeated_connects; }},
      {"connects_refused", "counter", [](const M& m) { return m.socket.refusals; }},
      {"floods", "counter", [](const M& m) { return m.socket.floods; }},
+     {"web_callers", "counter", [](const M& m) { return m.web.callers; }},
+     {"web_opened", "counter", [](const M& m) { return m.web.opened; }},
+     {"web_messages", "counter", [](const M& m) { return m.web.messages; }},
+     {"web_crowded", "counter", [](const M& m) { return m.web.crowded; }},
+     {"web_full", "counter", [](const M& m) { return m.web.full; }},
+     {"web_wrong_origin", "counter", [](const M& m) { return m.web.wrong_origin; }},
+     {"web_wrong_protocol", "counter", [](const M& m) { return m.web.wrong_protocol; }},
+     {"web_handshakes_late", "counter", [](const M& m) { return m.web.handshakes_late; }},
+     {"web_malformed", "counter", [](const M& m) { return m.web.malformed; }},
+     {"web_limited", "counter", [](const M& m) { return m.web.limited; }},
+     {"web_floods", "counter", [](const M& m) { return m.web.floods; }},
+     {"web_slow", "counter", [](const M& m) { return m.web.slow; }},
+     {"web_idle", "counter", [](const M& m) { return m.web.idle; }},
+     {"web_unreliable_dropped", "counter", [](const M& m) { return m.web.unreliable_dropped; }},
      {"handshakes_completed", "counter",
       [](const M& m) { return m.security.handshakes_completed; }},
      {"handshakes_refused", "counter", [](const M& m) { return m.security.handshakes_refused; }},

@@ -11,6 +11,7 @@
 #include <lockstone/net/server.h>
 #include <lockstone/net/transport_enet.h>
 #include <lockstone/net/transport_secure.h>
+#include <lockstone/net/transport_websocket.h>
 
 #include "tools/lockstone/match/metrics_port.h"
 
@@ -29,6 +30,7 @@ struct MatchMetrics {
   net::ServerCounters server;
   net::ConnectionCounts connections;
   net::EnetCounters socket;
+  net::WebSocketCounters web;      ///< zeros where there are no browsers
   net::SecurityCounters security;  ///< zeros where a match is insecure
 };
 

@@ -117,6 +117,7 @@ bool Rooms::Impl::open(const MatchOptions& match, std::size_t seats) {
     wanted.enet.max_connections_per_address = connections;
     wanted.enet.max_strangers_per_address = connections;
   }
+  wanted.web = match.web.options(wanted.enet);
   wanted.key = match.key;
   wanted.matches = &matches;
   wanted.addresses = match.addresses;
@@ -125,7 +126,8 @@ bool Rooms::Impl::open(const MatchOptions& match, std::size_t seats) {
   if (socket == nullptr) return false;
   net::MatchRouterOptions routing;
   routing.max_matches = options.rooms;
-  routing.max_connections = connections;
+  routing.max_connections = std::min(connections * (wanted.web ? 2U : 1U),
+                                     net::k_max_socket_connections);
   routing.max_connections_per_match = seats + k_strangers_a_room;
   auto made = net::MatchRouter::create(socket->session(), matches, routing);
   if (!made) {
@@ -155,6 +157,7 @@ void Rooms::Impl::run_socket() {
       socket_pulse.busy_seconds = processor_time();
       const std::lock_guard lock(counters_mutex);
       counters.sum.socket = socket->socket_counters();
+      counters.sum.web = socket->web_counters();
       counters.sum.security = socket->security_counters();
       counters.router = router->counters();
     }
@@ -189,6 +192,10 @@ bool Rooms::alive() const {
 
 std::uint16_t Rooms::port() const {
   return impl_->socket->port();
+}
+
+const std::string& Rooms::web_address() const {
+  return impl_->socket->web_address();
 }
 
 void Rooms::drain() {

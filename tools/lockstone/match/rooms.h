@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "tools/lockstone/match/match_host.h"
 #include "tools/lockstone/match/metrics.h"
@@ -35,6 +36,8 @@ class Rooms {
   ~Rooms();
 
   [[nodiscard]] std::uint16_t port() const;
+  /// Where browsers call; empty: nowhere.
+  [[nodiscard]] const std::string& web_address() const;
 
   /// No new match begins; those that run are played to their end.
   void drain();

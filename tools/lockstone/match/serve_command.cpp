@@ -17,6 +17,7 @@
 #include "tools/lockstone/match/rooms.h"
 #include "tools/lockstone/match/secrets.h"
 #include "tools/lockstone/match/servers.h"
+#include "tools/lockstone/match/web_players.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/interrupt.h"
 #include "tools/tool/tool_command.h"
@@ -91,6 +92,9 @@ MatchOptions options_of(const ServeOptions& options, unsigned index) {
   MatchOptions match = options.match;
   if (options.matches.value_or(1) == 1) return match;
   if (match.port != 0) match.port = static_cast<std::uint16_t>(match.port + index);
+  if (match.web.port.value_or(0) != 0) {
+    match.web.port = static_cast<std::uint16_t>(*match.web.port + index);
+  }
   if (match.metrics_port != 0) {
     match.metrics_port = static_cast<std::uint16_t>(match.metrics_port + index);
   }
@@ -109,7 +113,8 @@ int check_matches(const ServeOptions& options) {
     complain(fmt::format("--matches is {}; without --rooms it must be 1 … {}", matches, k_most));
     return k_usage;
   }
-  for (const std::uint16_t port : {options.match.port, options.match.metrics_port}) {
+  const std::uint16_t web_port = options.match.web.port.value_or(0);
+  for (const std::uint16_t port : {options.match.port, web_port, options.match.metrics_port}) {
     if (port == 0 || port + matches - 1 <= k_last_port) continue;
     complain(fmt::format("{} matches from port {} on: there is none above {}", matches, port,
                          k_last_port));
@@ -136,10 +141,11 @@ void remove_brackets(std::string& address) {
   if (bracketed && ipv6) address = address.substr(1, address.size() - 2);
 }
 
-void say_listening(const ServeOptions& options, std::uint16_t port) {
+void say_listening(const ServeOptions& options, std::uint16_t port, const std::string& web) {
   const net::HostPort where{options.match.bind, port};
-  Journal(options.match.json_log, port)
-      .write({"listening", fmt::format("listening on {}", where.to_text())});
+  Journal journal(options.match.json_log, port);
+  journal.write({"listening", fmt::format("listening on {}", where.to_text())});
+  if (!web.empty()) journal.write({"listening_web", fmt::format("listening on {}", web)});
 }
 
 int serve_ports(const Games& games, const ServeOptions& options, Agones* agones) {
@@ -147,7 +153,7 @@ int serve_ports(const Games& games, const ServeOptions& options, Agones* agones)
   for (unsigned i = 0; i < options.matches.value_or(1); ++i) {
     hosts.push_back(MatchHost::create(games, options_of(options, i)));
     if (hosts.back() == nullptr) return k_unavailable;
-    say_listening(options, hosts.back()->port());
+    say_listening(options, hosts.back()->port(), hosts.back()->web_address());
   }
   if (agones != nullptr) agones->ready();
   std::vector<int> exits(hosts.size());
@@ -174,7 +180,7 @@ int serve_rooms(const Games& games, const ServeOptions& options, Agones* agones)
   wanted.agones = agones;
   const std::unique_ptr<Rooms> rooms = Rooms::open(games, options.match, wanted);
   if (rooms == nullptr) return k_unavailable;
-  say_listening(options, rooms->port());
+  say_listening(options, rooms->port(), rooms->web_address());
   if (agones != nullptr) agones->ready();
   while (!rooms->over()) {
     if (interrupted()) options.drain&& asked_to_end() ? rooms->drain() : rooms->stop();
@@ -200,6 +206,7 @@ int serve(const Games& games, ServeOptions options) {
   if (const int code = rooms ? check_rooms(options) : check_matches(options); code != k_ok) {
     return code;
   }
+  if (const int code = check_web(options.match.web); code != k_ok) return code;
   if (const int code = set_security(options); code != k_ok) return code;
   if (!set_signing(options)) return k_usage;
   std::unique_ptr<Agones> agones;
@@ -260,7 +267,7 @@ void add_security_options(CLI::App& command, ServeOptions& options) {
 
 void add_serve_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<ServeOptions>();
-  CLI::App* command = app.add_subcommand("serve", "Host a match over UDP");
+  CLI::App* command = app.add_subcommand("serve", "Host a match over UDP, and WebSockets for browsers");
   add_match_options(*command, tool.games, options->match);
   command
       ->add_option("--bind", options->match.bind,
@@ -315,6 +322,7 @@ void add_serve_command(CLI::App& app, Tool& tool) {
       ->add_option("--metrics-bind", options->match.metrics_bind,
                    "Numeric address for that; anybody who reaches it may read")
       ->capture_default_str();
+  add_web_options(*command, options->match.web);
   add_rooms_options(*command, *options);
   add_service_options(*command, *options);
   add_security_options(*command, *options);

@@ -60,19 +60,26 @@ export function load(options: LoadOptions = {}): Promise<Lockstone> {
 export async function loadFrom(options: LoadOptions, plain: () => URL, vectors: () => URL): Promise<Lockstone> {
   const simd = options.simd ?? hasSimd();
   let heap: Heap | undefined;
-  const imports = importsOf(() => heap?.refresh());
+  const imports = importsOf(() => heap);
   const instance = await instantiate(options.wasm ?? (simd ? vectors() : plain()), imports);
   const loaded = new Lockstone(instance.exports as unknown as Exports, simd);
   heap = loaded.heap;
   return loaded;
 }
 
-/** The imports of the module: it needs next to nothing. */
-function importsOf(grown: () => void): WebAssembly.Imports {
+/** The imports of the module: it needs next to nothing. `heap`: once it is loaded. */
+function importsOf(heap: () => Heap | undefined): WebAssembly.Imports {
   const fail = (): never => {
     throw new Error("Lockstone: a fault of the library; please report it");
   };
-  const named: Record<string, () => unknown> = { emscripten_notify_memory_growth: grown };
+  const named: Record<string, (...values: number[]) => unknown> = {
+    emscripten_notify_memory_growth: () => heap()?.refresh(),
+    // Secrets of a match's connection.
+    getentropy: (address = 0, bytes = 0) => {
+      globalThis.crypto.getRandomValues(new Uint8Array(heap()!.f.memory.buffer as ArrayBuffer, address, bytes));
+      return 0;
+    },
+  };
   // No files, no clock, no output: a call of any other import is a fault.
   const any = new Proxy(named, { get: (known, name) => known[name as string] ?? fail });
   return new Proxy({}, { get: () => any }) as WebAssembly.Imports;

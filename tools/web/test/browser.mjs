@@ -8,21 +8,32 @@ import { serve } from "./server.mjs";
 const PROGRAMS = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 export const chromium = process.env.LOCKSTONE_CHROMIUM ?? PROGRAMS.find((path) => existsSync(path));
 
-/** Runs `use` with a page at `path` of the server; a message or an error of the page fails it. */
-export async function withPage(path, use) {
+/** Runs `use` with so many tabs, whose `origin` is that of the server; a message or an error of a tab fails it. */
+export async function withPages(count, use) {
   const require = createRequire(`${root}/build/web/node/`);
   const server = await serve();
   const browser = await require("playwright-core").chromium.launch({ executablePath: chromium, args: ["--no-sandbox"] });
   try {
-    const page = await browser.newPage({ viewport: { width: 1000, height: 700 } });
     const errors = [];
-    page.on("pageerror", (error) => errors.push(String(error)));
-    await page.goto(`http://127.0.0.1:${server.address().port}${path}`);
-    const result = await use(page);
+    const context = await browser.newContext({ viewport: { width: 1000, height: 700 } });
+    const pages = await Promise.all(Array.from({ length: count }, () => context.newPage()));
+    for (const page of pages) {
+      page.origin = `http://127.0.0.1:${server.address().port}`;
+      page.on("pageerror", (error) => errors.push(String(error)));
+    }
+    const result = await use(pages);
     if (errors.length > 0) throw new Error(errors.join("\n"));
     return result;
   } finally {
     await browser.close();
     server.close();
   }
+}
+
+/** The same with one tab, at `path` of the server. */
+export function withPage(path, use) {
+  return withPages(1, async ([page]) => {
+    await page.goto(page.origin + path);
+    return use(page);
+  });
 }

@@ -10,6 +10,7 @@ const root = fileURLToPath(new URL("../../..", import.meta.url));
 const package_ = process.env.LOCKSTONE_WEB_PACKAGE ?? join(root, "build/web/package");
 const FOLDERS = {
   lockstone: package_,
+  play: join(root, "tools/web/play"),
   testbed: join(root, "tools/web/testbed"),
   test: join(root, "tools/web/test"),
   golden: join(root, "tests/golden"),
@@ -20,8 +21,12 @@ const TYPES = {
   ".json": "application/json", ".wasm": "application/wasm",
 };
 
-async function answer(request, response) {
+async function answer(request, response, more) {
   const { pathname } = new URL(request.url, "http://localhost");
+  if (more.has(pathname)) {
+    response.writeHead(200, { "content-type": TYPES[".json"] }).end(JSON.stringify(more.get(pathname)));
+    return;
+  }
   if (pathname === "/") {
     response.writeHead(302, { location: "/testbed/index.html" }).end();
     return;
@@ -35,9 +40,9 @@ async function answer(request, response) {
   }
 }
 
-/** A server on this machine alone; port 0: any that is free. */
-export function serve(port = 0) {
-  const server = createServer(answer);
+/** A server on this machine alone; port 0: any that is free. `more`: values to give as JSON, by their paths. */
+export function serve(port = 0, more = new Map()) {
+  const server = createServer((request, response) => answer(request, response, more));
   return new Promise((resolve) => server.listen(port, "127.0.0.1", () => resolve(server)));
 }
 

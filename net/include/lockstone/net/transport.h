@@ -17,6 +17,8 @@ namespace lockstone::net {
 /// Names one connection of one transport. Not reused while anybody may still hold it; 0 is none.
 using ConnectionId = std::uint32_t;
 inline constexpr ConnectionId k_no_connection = 0;
+/// Numbers of a transport that has a socket have at most so many bits: see JoinedTransport.
+inline constexpr unsigned k_connection_bits = 30;
 
 /// The most bytes of one unreliable and of one reliable packet that a session sends.
 inline constexpr std::size_t k_max_datagram_bytes = 1200;

@@ -104,6 +104,12 @@ LKS_API lks_status lks_client_reconnect(lks_client* client, lks_connection conne
 
 LKS_API lks_status lks_client_leave(lks_client* client);
 
+/* Begins a log in memory of this client's ticks, at the present one; once, after the server's offer
+ * was understood. It ends where the client loads a state, and holds keyframes only of a client that
+ * does not predict. LKS_INCOMPATIBLE: the client predicts, and has stepped ticks. */
+LKS_API lks_status lks_client_record(lks_client* client, const lks_recorder_def* def,
+                                     lks_recorder** out);
+
 #ifdef __cplusplus
 }
 #endif

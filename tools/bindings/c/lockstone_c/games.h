@@ -2,7 +2,7 @@
 #ifndef LOCKSTONE_C_GAMES_H
 #define LOCKSTONE_C_GAMES_H
 
-#include "base.h"
+#include "world.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -53,6 +53,11 @@ LKS_API lks_status lks_simulation_tick(const lks_simulation* simulation, uint64_
 
 /* The match that the table's `create` made; null for a built-in game. Do not step it yourself. */
 LKS_API lks_status lks_simulation_match(const lks_simulation* simulation, void** out);
+
+/* The world of a match of a built-in game, to be looked at and drawn: it takes no command and is not
+ * stepped, saved or loaded by itself (LKS_READ_ONLY). LKS_NOT_FOUND: the game is another. It keeps the
+ * simulation alive. */
+LKS_API lks_status lks_simulation_world(const lks_simulation* simulation, lks_world** out);
 
 enum {
   LKS_INPUT_RECEIVED = 0,

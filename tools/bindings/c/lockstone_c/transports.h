@@ -1,4 +1,5 @@
-/* Transports carry the packets of a session: UDP by ENet, or a network within the process. */
+/* Transports carry the packets of a session: UDP by ENet, a WebSocket of the program's, or a network
+ * within the process. */
 #ifndef LOCKSTONE_C_TRANSPORTS_H
 #define LOCKSTONE_C_TRANSPORTS_H
 
@@ -60,6 +61,32 @@ LKS_API lks_status lks_enet_wait(lks_transport* transport, int64_t limit_us);
 LKS_API lks_status lks_issue_token(const void* key, uint64_t match_id, uint64_t player, uint32_t slot,
                                    uint64_t expires_unix_s, const char* address, uint32_t port,
                                    char* out, size_t capacity);
+
+/* A client's end whose packets the program carries itself, as messages of a WebSocket that it has
+ * opened with the subprotocol "lockstone": in a browser, which lets nobody else open one. `token`: its
+ * text, for an encrypted match; null: insecure. */
+LKS_API lks_status lks_carried_create(const char* token, lks_transport** out);
+
+/* A new connection for the session; a former one has ended. Open a WebSocket for it. */
+LKS_API lks_status lks_carried_call(lks_transport* transport, lks_connection* connection);
+
+/* The WebSocket is open. */
+LKS_API lks_status lks_carried_opened(lks_transport* transport);
+
+/* A binary message came. LKS_MALFORMED: it breaks the format, or too much waits for lks_client_update:
+ * close the WebSocket. */
+LKS_API lks_status lks_carried_receive(lks_transport* transport, const void* message, size_t bytes);
+
+/* The next message to send. `bytes` is 0 when there is none; LKS_BUFFER_TOO_SMALL when it is longer
+ * than the capacity: 49,217 bytes are always enough. */
+LKS_API lks_status lks_carried_take(lks_transport* transport, void* out, size_t capacity,
+                                    size_t* bytes);
+
+/* The WebSocket was closed, with this code. */
+LKS_API lks_status lks_carried_closed(lks_transport* transport, uint32_t code);
+
+/* 0 once the connection has ended: when all messages are taken, close its WebSocket. */
+LKS_API lks_status lks_carried_is_open(const lks_transport* transport, uint32_t* out);
 
 /* A network within the process, in the sessions' own time: the same calls give the same packets. */
 typedef struct lks_network lks_network;

@@ -112,6 +112,8 @@ LKS_PACING_FAST = 1
 LKS_DESYNC_END = 0
 LKS_DESYNC_KICK = 1
 LKS_DESYNC_RESYNC = 2
+LKS_NO_SLOT = 255
+LKS_SPECTATOR_SLOT = 254
 LKS_SESSION_STARTED = 1
 LKS_SESSION_TICK = 2
 LKS_SESSION_FINISHED = 3
@@ -964,6 +966,7 @@ FUNCTIONS = {
     "lks_client_ask": [c_int32, c_void_p, c_uint32, c_uint32, c_uint32],
     "lks_client_reconnect": [c_int32, c_void_p, c_uint32],
     "lks_client_leave": [c_int32, c_void_p],
+    "lks_client_record": [c_int32, c_void_p, POINTER(lks_recorder_def), POINTER(c_void_p)],
     "lks_events": [c_int32, c_void_p, POINTER(lks_event), c_size_t, POINTER(c_size_t)],
     "lks_joint_events": [c_int32, c_void_p, POINTER(lks_joint_event), c_size_t, POINTER(c_size_t)],
     "lks_hit_events": [c_int32, c_void_p, POINTER(lks_hit_event), c_size_t, POINTER(c_size_t)],
@@ -978,6 +981,7 @@ FUNCTIONS = {
     "lks_simulation_get_info": [c_int32, c_void_p, POINTER(lks_simulation_info)],
     "lks_simulation_tick": [c_int32, c_void_p, POINTER(c_uint64)],
     "lks_simulation_match": [c_int32, c_void_p, POINTER(c_void_p)],
+    "lks_simulation_world": [c_int32, c_void_p, POINTER(c_void_p)],
     "lks_simulation_step": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_uint32)],
     "lks_simulation_hash": [c_int32, c_void_p, POINTER(c_uint64)],
     "lks_simulation_snapshot_bytes_max": [c_int32, c_void_p, c_uint32, POINTER(c_size_t)],
@@ -1045,6 +1049,13 @@ FUNCTIONS = {
     "lks_enet_port": [c_int32, c_void_p, POINTER(c_uint32)],
     "lks_enet_wait": [c_int32, c_void_p, c_int64],
     "lks_issue_token": [c_int32, c_void_p, c_uint64, c_uint64, c_uint32, c_uint64, c_char_p, c_uint32, c_void_p, c_size_t],
+    "lks_carried_create": [c_int32, c_char_p, POINTER(c_void_p)],
+    "lks_carried_call": [c_int32, c_void_p, POINTER(c_uint32)],
+    "lks_carried_opened": [c_int32, c_void_p],
+    "lks_carried_receive": [c_int32, c_void_p, c_void_p, c_size_t],
+    "lks_carried_take": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_size_t)],
+    "lks_carried_closed": [c_int32, c_void_p, c_uint32],
+    "lks_carried_is_open": [c_int32, c_void_p, POINTER(c_uint32)],
     "lks_network_create": [c_int32, c_uint64, POINTER(c_void_p)],
     "lks_network_destroy": [None, c_void_p],
     "lks_network_add": [c_int32, c_void_p, POINTER(c_void_p)],

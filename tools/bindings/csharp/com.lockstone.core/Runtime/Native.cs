@@ -891,6 +891,8 @@ namespace Lockstone.Interop
         public const uint LKS_DESYNC_END = 0;
         public const uint LKS_DESYNC_KICK = 1;
         public const uint LKS_DESYNC_RESYNC = 2;
+        public const uint LKS_NO_SLOT = 255;
+        public const uint LKS_SPECTATOR_SLOT = 254;
         public const uint LKS_SESSION_STARTED = 1;
         public const uint LKS_SESSION_TICK = 2;
         public const uint LKS_SESSION_FINISHED = 3;
@@ -1162,6 +1164,9 @@ namespace Lockstone.Interop
         public static extern int lks_client_leave(IntPtr client);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_client_record(IntPtr client, lks_recorder_def* def, IntPtr* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_events(IntPtr world, lks_event* @out, UIntPtr capacity, UIntPtr* count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -1202,6 +1207,9 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_simulation_match(IntPtr simulation, void** @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_simulation_world(IntPtr simulation, IntPtr* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_simulation_step(IntPtr simulation, void* inputs, UIntPtr bytes, uint* origins);
@@ -1403,6 +1411,27 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_issue_token(void* key, ulong match_id, ulong player, uint slot, ulong expires_unix_s, byte* address, uint port, byte* @out, UIntPtr capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_carried_create(byte* token, IntPtr* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_carried_call(IntPtr transport, uint* connection);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_carried_opened(IntPtr transport);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_carried_receive(IntPtr transport, void* message, UIntPtr bytes);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_carried_take(IntPtr transport, void* @out, UIntPtr capacity, UIntPtr* bytes);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_carried_closed(IntPtr transport, uint code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_carried_is_open(IntPtr transport, uint* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_network_create(ulong seed, IntPtr* @out);

@@ -147,6 +147,8 @@ pub const LKS_PACING_FAST: u32 = 1;
 pub const LKS_DESYNC_END: u32 = 0;
 pub const LKS_DESYNC_KICK: u32 = 1;
 pub const LKS_DESYNC_RESYNC: u32 = 2;
+pub const LKS_NO_SLOT: u32 = 255;
+pub const LKS_SPECTATOR_SLOT: u32 = 254;
 pub const LKS_SESSION_STARTED: u32 = 1;
 pub const LKS_SESSION_TICK: u32 = 2;
 pub const LKS_SESSION_FINISHED: u32 = 3;
@@ -987,6 +989,7 @@ extern "C" {
     pub fn lks_client_ask(client: *mut lks_client, kind: u32, topic: u32, choice: u32) -> lks_status;
     pub fn lks_client_reconnect(client: *mut lks_client, connection: lks_connection) -> lks_status;
     pub fn lks_client_leave(client: *mut lks_client) -> lks_status;
+    pub fn lks_client_record(client: *mut lks_client, def: *const lks_recorder_def, out: *mut *mut lks_recorder) -> lks_status;
     pub fn lks_events(world: *const lks_world, out: *mut lks_event, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_joint_events(world: *const lks_world, out: *mut lks_joint_event, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_hit_events(world: *const lks_world, out: *mut lks_hit_event, capacity: usize, count: *mut usize) -> lks_status;
@@ -1001,6 +1004,7 @@ extern "C" {
     pub fn lks_simulation_get_info(simulation: *const lks_simulation, out: *mut lks_simulation_info) -> lks_status;
     pub fn lks_simulation_tick(simulation: *const lks_simulation, out: *mut u64) -> lks_status;
     pub fn lks_simulation_match(simulation: *const lks_simulation, out: *mut *mut c_void) -> lks_status;
+    pub fn lks_simulation_world(simulation: *const lks_simulation, out: *mut *mut lks_world) -> lks_status;
     pub fn lks_simulation_step(simulation: *mut lks_simulation, inputs: *const c_void, bytes: usize, origins: *const u32) -> lks_status;
     pub fn lks_simulation_hash(simulation: *const lks_simulation, out: *mut u64) -> lks_status;
     pub fn lks_simulation_snapshot_bytes_max(simulation: *const lks_simulation, kind: u32, out: *mut usize) -> lks_status;
@@ -1068,6 +1072,13 @@ extern "C" {
     pub fn lks_enet_port(transport: *const lks_transport, out: *mut u32) -> lks_status;
     pub fn lks_enet_wait(transport: *mut lks_transport, limit_us: i64) -> lks_status;
     pub fn lks_issue_token(key: *const c_void, match_id: u64, player: u64, slot: u32, expires_unix_s: u64, address: *const c_char, port: u32, out: *mut c_char, capacity: usize) -> lks_status;
+    pub fn lks_carried_create(token: *const c_char, out: *mut *mut lks_transport) -> lks_status;
+    pub fn lks_carried_call(transport: *mut lks_transport, connection: *mut lks_connection) -> lks_status;
+    pub fn lks_carried_opened(transport: *mut lks_transport) -> lks_status;
+    pub fn lks_carried_receive(transport: *mut lks_transport, message: *const c_void, bytes: usize) -> lks_status;
+    pub fn lks_carried_take(transport: *mut lks_transport, out: *mut c_void, capacity: usize, bytes: *mut usize) -> lks_status;
+    pub fn lks_carried_closed(transport: *mut lks_transport, code: u32) -> lks_status;
+    pub fn lks_carried_is_open(transport: *const lks_transport, out: *mut u32) -> lks_status;
     pub fn lks_network_create(seed: u64, out: *mut *mut lks_network) -> lks_status;
     pub fn lks_network_destroy(network: *mut lks_network);
     pub fn lks_network_add(network: *mut lks_network, out: *mut *mut lks_transport) -> lks_status;
