@@ -7,7 +7,9 @@ export const COLOURINGS = ["body", "island", "activity"] as const;
 export type Colouring = (typeof COLOURINGS)[number];
 
 const PALETTE = [0x4e79a7, 0xf28e2b, 0xe15759, 0x76b7b2, 0x59a14f, 0xedc948, 0xb07aa1, 0x9c755f].map((hex) => new three.Color(hex));
-const FIXED = new three.Color(0x8a949e), KINEMATIC = new three.Color(0x3aa6a0), TRIGGER = new three.Color(0x42c864);
+/** Of bodies that never move: the page's theme sets it. */
+export const FIXED = new three.Color(0x8a949e);
+const KINEMATIC = new three.Color(0x3aa6a0), TRIGGER = new three.Color(0x42c864);
 const ASLEEP = new three.Color(0x5b6b86), AWAKE = new three.Color(0xf08a24), SELECTED = new three.Color(0xffffff);
 const SAME = new three.Color(0x7d8894);
 
@@ -30,7 +32,7 @@ export function painterOf(colouring: () => Colouring, sleepShown: () => boolean,
     if (moves && colouring() === "island" && island >= 0) islandColor(island, out);
     else if (moves && colouring() === "activity") out.copy(state === State.asleep ? ASLEEP : AWAKE);
     else paintBody(row, state, out);
-    if (state === State.asleep && sleepShown()) out.lerp(ASLEEP, 0.65);
+    if (state === State.asleep && sleepShown()) out.lerp(ASLEEP, 0.5);
     if (row === chosen()) out.lerp(SELECTED, 0.55);
   };
 }

@@ -2,6 +2,7 @@
 import * as three from "three";
 import { Bodies, type Painter } from "./bodies.js";
 import { Drawn, type Lists } from "./engine.js";
+import { FIXED } from "./paint.js";
 import { OVERLAYS, Overlays } from "./overlays.js";
 import type { Stage } from "./stage.js";
 
@@ -20,7 +21,6 @@ export class Diorama {
   constructor(readonly stage: Stage, readonly paint: Painter) {
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(1024, 1024);
-    this.sun.shadow.normalBias = 0.03;
     this.scene.add(this.sky, this.sun, this.sun.target, this.bodies.group, this.overlays.group);
   }
 
@@ -45,6 +45,7 @@ export class Diorama {
     this.sun.position.copy(target).add(new three.Vector3(radius, 2.5 * radius, 1.5 * radius));
     this.sun.target.position.copy(target);
     const r = 2 * radius;
+    this.sun.shadow.normalBias = (2.5 * (2 * r)) / this.sun.shadow.mapSize.width; // texels: no stripes on flat ground
     Object.assign(this.sun.shadow.camera, { left: -r, right: r, top: r, bottom: -r, near: 0.1, far: 8 * radius });
     this.sun.shadow.camera.updateProjectionMatrix();
   }
@@ -80,6 +81,7 @@ export class Picture {
     const style = getComputedStyle(document.documentElement);
     this.background.set(style.getPropertyValue("--sky").trim());
     this.floor.set(style.getPropertyValue("--floor").trim());
+    FIXED.set(style.getPropertyValue("--fixed").trim());
     this.dark = this.background.getHSL({ h: 0, s: 0, l: 0 }).l < 0.3;
   }
 
@@ -92,9 +94,11 @@ export class Picture {
       if (bodies[at + 1]! >= 1) box.expandByPoint(new three.Vector3().fromArray(positions, 3 * bodies[at]!));
     }
     if (box.isEmpty()) box.expandByPoint(new three.Vector3());
+    // What hangs in the air will fall.
+    if (box.min.y > 0) box.min.y = 0;
     box.getCenter(this.target);
     this.radius = Math.min(Math.max(box.getSize(new three.Vector3()).length() / 2, 2.5), 60);
-    this.distance = 2.6;
+    this.distance = 2.1;
   }
 
   /** Turn, rise, distance and target. */

@@ -30,9 +30,7 @@ export class Transport {
   play(wanted: boolean): void {
     this.playing = wanted;
     this.due = 0;
-    const button = byId("play");
-    button.textContent = wanted ? "⏸" : "▶";
-    button.setAttribute("aria-pressed", String(wanted));
+    byId("play").setAttribute("aria-pressed", String(wanted));
   }
 
   stepOnce(): void {
