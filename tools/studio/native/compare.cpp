@@ -1,6 +1,7 @@
 // Two worlds beside each other, body by body.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <lockstone/testing/floating.h>
@@ -27,10 +28,16 @@ float gap_between(const Vec3<T>& a, const Vec3<T>& b) {
   return static_cast<float>(std::sqrt(sum));
 }
 
+// By the chord between both quaternions, which is exactly 0 for equal ones.
 float turn_between(const Quat& a, const Quat& b) {
-  const auto part = [](Unit x, Unit y) { return testing::to_double(x) * testing::to_double(y); };
-  const double dot = part(a.x, b.x) + part(a.y, b.y) + part(a.z, b.z) + part(a.w, b.w);
-  return static_cast<float>(2 * k_degrees * std::acos(std::min(1.0, std::abs(dot))));
+  double minus = 0, plus = 0;
+  for (const auto& [x, y] : {std::pair{a.x, b.x}, {a.y, b.y}, {a.z, b.z}, {a.w, b.w}}) {
+    const double left = testing::to_double(x), right = testing::to_double(y);
+    minus += (left - right) * (left - right);
+    plus += (left + right) * (left + right);
+  }
+  const double chord = std::sqrt(std::min(minus, plus));
+  return static_cast<float>(4 * k_degrees * std::asin(std::min(1.0, chord / 2)));
 }
 
 bool same(const BodyView& a, const BodyView& b) {

@@ -19,6 +19,17 @@ export class Series {
   }
 }
 
+/** How a chart writes and places its values. */
+export interface Scale {
+  text(value: number): string;
+  /** The height of a value, in any unit. */
+  height(value: number): number;
+}
+
+function plain(unit: string): Scale {
+  return { text: (value) => `${short(value)} ${unit}`, height: (value) => value };
+}
+
 function short(value: number): string {
   if (Number.isNaN(value)) return "–";
   const size = Math.abs(value);
@@ -33,7 +44,11 @@ export class Chart {
   private readonly canvas = make("canvas", { class: "chart" });
   private readonly value: HTMLElement;
 
-  constructor(title: string, private readonly unit: string, id: string, private readonly ticks = 600) {
+  private readonly scale: Scale;
+
+  /** `unit`: its name, or a scale of its own. */
+  constructor(title: string, unit: string | Scale, id: string, private readonly ticks = 600) {
+    this.scale = typeof unit === "string" ? plain(unit) : unit;
     this.value = make("output", { id });
     this.element = make("figure", { class: "chart-box" }, make("figcaption", {}, make("span", {}, title), this.value), this.canvas);
     this.canvas.setAttribute("aria-label", title);
@@ -42,7 +57,7 @@ export class Chart {
 
   /** The ticks before and after `tick` that are known. */
   draw(tick: number, last: number): void {
-    this.value.textContent = `${short(this.series.at(tick))} ${this.unit}`;
+    this.value.textContent = this.scale.text(this.series.at(tick));
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0) return;
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
@@ -58,7 +73,7 @@ export class Chart {
     pen.beginPath();
     let drawing = false;
     for (let at = begin; at <= end; ++at) {
-      const value = this.series.at(at);
+      const value = this.scale.height(this.series.at(at));
       if (Number.isNaN(value)) drawing = false;
       else if (drawing) pen.lineTo(x(at), y(value));
       else {
@@ -74,7 +89,7 @@ export class Chart {
   private range(begin: number, end: number): [number, number] {
     let low = Infinity, high = -Infinity;
     for (let at = begin; at <= end; ++at) {
-      const value = this.series.at(at);
+      const value = this.scale.height(this.series.at(at));
       if (value < low) low = value;
       if (value > high) high = value;
     }

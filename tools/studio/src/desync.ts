@@ -2,12 +2,13 @@
 import * as three from "three";
 import { Body } from "../../web/src/body.js";
 import type { Hit } from "../../web/src/queries.js";
-import { Chart } from "./charts.js";
+import { Chart, type Scale } from "./charts.js";
 import { Facts, button, make, section } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { LogFile } from "./log_file.js";
 import { LogStage } from "./log_stage.js";
 import type { Mode } from "./mode.js";
+import type { Pin } from "./overlays.js";
 import { differenceColor, differencePainter } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
 import { Selection } from "./selection.js";
@@ -15,6 +16,7 @@ import { type Desync, type Session, bytesOf } from "./session.js";
 
 const SPREAD_TICKS = 120; // that are compared beforehand
 const LISTED = 12; // bodies
+const MOST_PINS = 200;
 
 interface Differing {
   row: number;
@@ -23,7 +25,11 @@ interface Differing {
   degrees: number;
 }
 
+/** From a nanometre to a metre, by the logarithm. */
+const BY_SIZE: Scale = { text: length, height: (metres) => (metres > 0 ? Math.max(Math.log10(metres), -10) : -10.5) };
+
 function length(metres: number): string {
+  if (Number.isNaN(metres)) return "–";
   const [unit, scale] = metres >= 1 ? ["m", 1] : metres >= 1e-3 ? ["mm", 1e3] : metres >= 1e-6 ? ["µm", 1e6] : ["nm", 1e9];
   return metres === 0 ? "0" : `${(metres * (scale as number)).toPrecision(3)} ${unit}`;
 }
@@ -38,7 +44,7 @@ export class DesyncView implements Mode {
   private comparedTick = -1;
   private readonly table = make("tbody", { id: "differing" });
   private readonly counted = new Chart("Differing bodies", "", "chart-differing", 300);
-  private readonly farthest = new Chart("Farthest apart", "mm", "chart-farthest", 300);
+  private readonly farthest = new Chart("Farthest apart", BY_SIZE, "chart-farthest", 300);
   private readonly selection = new Selection();
   private readonly status = make("p", { id: "compare-status" });
 
@@ -46,11 +52,13 @@ export class DesyncView implements Mode {
     readonly lead: LogStage, private readonly there: LogStage, names: string[], private readonly seekTo: (tick: number) => void) {
     this.labels = [`here: ${names[0] ?? ""}`, `there: ${names[1] ?? names[0] ?? ""}`];
     const paint = differencePainter(() => this.rows, () => this.selection.row);
-    this.dioramas = [new Diorama(lead, paint), new Diorama(there, paint)];
+    this.dioramas = [lead, there].map((stage) => new Diorama(stage, paint, () => this.pins(stage)));
     picture.frame(lead);
     this.buildPanel();
     if (desync.found) this.measureSpread();
     this.seek(desync.found ? this.shownTick : lead.first);
+    const worst = this.listed()[0];
+    if (worst) this.look(worst.row);
   }
 
   static async open(engine: Engine, picture: Picture, { logs, desync }: Session, seekTo: (tick: number) => void): Promise<DesyncView> {
@@ -82,6 +90,10 @@ export class DesyncView implements Mode {
     this.counted.draw(tick, last);
     this.farthest.draw(tick, last);
     this.selection.refresh(this.lead.world);
+    [this.lead, this.there].forEach((stage, i) => {
+      const label = document.querySelectorAll("#labels span")[i];
+      if (label) label.textContent = `${this.labels[i]}  ${stage.hash}`;
+    });
   }
 
   choose(hit: Hit | null): void {
@@ -119,7 +131,7 @@ export class DesyncView implements Mode {
     const unknown = desync.found && tick > desync.tick && tick < this.shownTick;
     const same = this.lead.hash === this.there.hash;
     this.status.textContent = unknown ? `Tick ${tick}: the state there is not known before tick ${this.shownTick}`
-      : differing > 0 ? `Tick ${tick}: ${differing} bodies differ` : same ? `Tick ${tick}: both are equal, bit for bit`
+      : differing > 0 ? `Tick ${tick}: ${differing} ${differing === 1 ? "body differs" : "bodies differ"}` : same ? `Tick ${tick}: both are equal, bit for bit`
         : `Tick ${tick}: the bodies are equal, contacts or joints are not`;
   }
 
@@ -134,7 +146,14 @@ export class DesyncView implements Mode {
 
   private note(tick: number, listed: Differing[], differing: number): void {
     this.counted.series.set(tick, differing);
-    this.farthest.series.set(tick, (listed[0]?.metres ?? 0) * 1000);
+    this.farthest.series.set(tick, listed[0]?.metres ?? 0);
+  }
+
+  // Above each body that differs, in the colour of its difference.
+  private pins(stage: LogStage): Pin[] {
+    const { positions } = stage.view;
+    return this.listed().filter(({ row }) => stage.view.bodies[row]).slice(0, MOST_PINS)
+      .map(({ row, metres }) => ({ place: positions.subarray(3 * row, 3 * row + 3), color: differenceColor(metres, new three.Color()) }));
   }
 
   private measureSpread(): void {

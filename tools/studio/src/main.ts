@@ -20,7 +20,14 @@ const KEYS: [string, string][] = [
 const VIEWS = { testbed: "Testbed", log: "Log", desync: "Desync" } as const;
 type ViewName = keyof typeof VIEWS;
 
+// Events after which the picture may be another one.
+const STIRRING = ["pointerdown", "pointermove", "pointerup", "wheel", "keydown", "input", "change", "click", "resize"];
+const AWAKE_MS = 400; // that frames are drawn after one
+const IDLE_MS = 500; // between frames without any
+
 let mode: Mode | null = null;
+let awakeUntil = 0;
+let drawnAt = 0;
 const picture = new Picture(byId<HTMLCanvasElement>("picture"));
 const transport = new Transport(() => mode);
 new Hand(picture, () => mode);
@@ -90,6 +97,7 @@ async function openSafely(engine: Engine, session: Session, view: ViewName): Pro
   tell("Opening …");
   try {
     await open(engine, session, view);
+    awakeUntil = performance.now() + AWAKE_MS;
     tell("");
   } catch (error) {
     tell(error instanceof Error ? error.message : String(error));
@@ -100,6 +108,8 @@ function frame(now: number): void {
   requestAnimationFrame(frame);
   transport.advance(now);
   if (!mode) return;
+  if (!transport.playing && now > awakeUntil && now < drawnAt + IDLE_MS) return;
+  drawnAt = now;
   const pulled = mode instanceof Testbed ? mode.pulled : null;
   picture.draw(mode.dioramas, transport.fraction, mode.shown, pulled);
   mode.refresh();
@@ -115,6 +125,7 @@ async function begin(): Promise<void> {
   byId("shoot").onclick = savePicture;
   byId("keys").append(make("h2", {}, "Keys"), ...KEYS.map(([key, text]) => make("p", {}, make("kbd", {}, key), ` ${text}`)));
   byId("help").onclick = () => byId<HTMLDialogElement>("keys").showModal();
+  for (const name of STIRRING) addEventListener(name, () => (awakeUntil = performance.now() + AWAKE_MS), { capture: true, passive: true });
   document.addEventListener("keydown", (event) => press(event) && event.preventDefault());
   tell("Loading …");
   const session = await sessionOf();
@@ -125,6 +136,7 @@ async function begin(): Promise<void> {
     byId("views").append(tab);
   }
   requestAnimationFrame(frame);
+  addEventListener("hashchange", () => seenOf(location.hash) && void openSafely(engine, session, "testbed"));
   await openSafely(engine, session, seenOf(location.hash) ? "testbed" : views.at(-1)!);
 }
 

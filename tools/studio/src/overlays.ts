@@ -10,6 +10,12 @@ const BOUNDS = new three.Color(0x9b7bff), AXES = [0xff4d4d, 0x37c871, 0x4d8dff].
 // The corners of a box by bits of axes, and its edges.
 const EDGES = [0, 1, 0, 2, 0, 4, 1, 3, 1, 5, 2, 3, 2, 6, 3, 7, 4, 5, 4, 6, 5, 7, 6, 7];
 
+/** A place that is pointed at from above. */
+export interface Pin {
+  place: ArrayLike<number>;
+  color: three.Color;
+}
+
 /** Growing arrays of coloured vertices. */
 class Vertices {
   readonly geometry = new three.BufferGeometry();
@@ -59,12 +65,17 @@ export class Overlays {
   }
 
   /** Lists that were not drawn are empty. `size`: m, of marks. `pulled`: from the body to the hand. */
-  update(lists: Lists, size: number, pulled: three.Vector3[] | null): void {
+  update(lists: Lists, size: number, pulled: three.Vector3[] | null, pins: readonly Pin[]): void {
     this.addContacts(lists.contacts, size);
     this.addJoints(lists.joints);
     this.addBounds(lists.bounds);
     this.addMasses(lists.masses, size);
     if (pulled) this.line(pulled[0]!.toArray(), pulled[1]!.toArray(), FORCE);
+    for (const { place, color } of pins) {
+      const [x, y, z] = [place[0]!, place[1]!, place[2]!];
+      this.line([x, y, z], [x, y + 8 * size, z], color);
+      this.points.add(x, y + 8 * size, z, color);
+    }
     this.lines.flush();
     this.points.flush();
   }

@@ -3,10 +3,21 @@ import * as three from "three";
 import { Bodies, type Painter } from "./bodies.js";
 import { Drawn, type Lists } from "./engine.js";
 import { FIXED } from "./paint.js";
-import { OVERLAYS, Overlays } from "./overlays.js";
+import { OVERLAYS, Overlays, type Pin } from "./overlays.js";
 import type { Stage } from "./stage.js";
 
 const LISTS: Record<string, number> = { contacts: Drawn.contacts, joints: Drawn.joints, bounds: Drawn.bounds, masses: Drawn.masses };
+
+/** Whether a processor draws in place of a graphics card: then the picture is a plainer one. */
+function drawsInSoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const names = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = names ? String(context?.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
+const SOFTWARE = drawsInSoftware();
 
 /** A world in its own light. */
 export class Diorama {
@@ -18,9 +29,10 @@ export class Diorama {
   /** What was drawn last. */
   lists: Lists | undefined;
 
-  constructor(readonly stage: Stage, readonly paint: Painter) {
+  /** `pins`: places to point at, of the present tick. */
+  constructor(readonly stage: Stage, readonly paint: Painter, private readonly pins: () => readonly Pin[] = () => []) {
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.mapSize.setScalar(SOFTWARE ? 512 : 2048);
     this.scene.add(this.sky, this.sun, this.sun.target, this.bodies.group, this.overlays.group);
   }
 
@@ -34,7 +46,7 @@ export class Diorama {
     this.bodies.update(stage.world, stage.view.bodies, visible, positions, orientations, this.paint);
     // The bodies' outlines may have taken memory: the lists are asked for again.
     this.lists = stage.engine.draw(stage.world, wanted);
-    this.overlays.update(this.lists, markSize, pulled);
+    this.overlays.update(this.lists, markSize, pulled, this.pins());
   }
 
   light(target: three.Vector3, radius: number, background: three.Color, floor: three.Color, dark: boolean): void {
@@ -71,7 +83,7 @@ export class Picture {
   private readonly floor = new three.Color();
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new three.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new three.WebGLRenderer({ canvas, antialias: !SOFTWARE, preserveDrawingBuffer: true });
     this.renderer.shadowMap.enabled = true;
     this.renderer.setScissorTest(true);
   }

@@ -32,9 +32,12 @@ export abstract class Stage {
     this.view.update();
   }
 
-  /** Goes to any tick between `first` and `last`. */
+  /** Whether ticks after `last` can be played too. */
+  protected readonly isOpen: boolean = false;
+
+  /** Goes to any tick between `first` and `last`, or later where the stage is open. */
   seek(tick: number): void {
-    this.goTo(Math.min(Math.max(tick, this.first), this.last));
+    this.goTo(Math.max(this.isOpen ? tick : Math.min(tick, this.last), this.first));
     this.view.reset();
   }
 

@@ -9,6 +9,7 @@ const KEEP_EVERY = 15; // ticks
 
 export class TestbedStage extends Stage {
   readonly first = 0;
+  protected override readonly isOpen = true;
   last = 0;
   /** What was done before the step of a tick. */
   readonly journal = new Map<number, Action[]>();
