@@ -32,6 +32,10 @@ int studio(const Games& games, const StudioOptions& options) {
 
 }  // namespace
 
+bool has_studio() {
+  return true;
+}
+
 void add_studio_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<StudioOptions>();
   CLI::App* command = app.add_subcommand(

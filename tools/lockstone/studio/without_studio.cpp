@@ -5,6 +5,10 @@
 
 namespace lockstone::tool {
 
+bool has_studio() {
+  return false;
+}
+
 void add_studio_command(CLI::App& app, Tool& tool) {
   add_absent_command(app, tool.exit_code, "studio",
                      "its page was not there. Run `tools/studio.sh build`, which builds the page "
