@@ -29,53 +29,61 @@ export class States {
   }
 }
 
-/** States by tick. When they hold more than their share of memory, every second one goes. */
+/** States by tick, the first one included. When they hold more than their share of memory, every second one goes. */
 export class History {
   private readonly kept = new Map<number, Uint8Array>();
+  private ticks: number[] = []; // ascending
   private bytes = 0;
 
   constructor(private interval: number, private readonly mostBytes = 256e6) {}
 
   /** Whether the state of this tick should be kept. */
   wants(tick: number): boolean {
-    return tick % this.interval === 0 && !this.kept.has(tick);
+    return (this.kept.size === 0 || tick % this.interval === 0) && !this.kept.has(tick);
   }
 
   put(tick: number, state: Uint8Array): void {
-    if (this.kept.has(tick)) return;
+    if (!this.wants(tick)) return;
     this.kept.set(tick, state);
+    this.ticks.splice(this.indexBefore(tick) + 1, 0, tick);
     this.bytes += state.length;
-    while (this.bytes > this.mostBytes && this.kept.size > 2) this.thin();
+    while (this.bytes > this.mostBytes && this.kept.size > 2) {
+      this.interval *= 2;
+      this.keepOnly((at) => at === this.ticks[0] || at % this.interval === 0);
+    }
   }
 
   /** The last state at or before a tick. */
   before(tick: number): { tick: number; state: Uint8Array } | undefined {
-    for (let at = tick - (tick % this.interval); at >= 0; at -= this.interval) {
-      const state = this.kept.get(at);
-      if (state) return { tick: at, state };
-    }
-    return undefined;
+    const at = this.ticks[this.indexBefore(tick)];
+    return at === undefined ? undefined : { tick: at, state: this.kept.get(at)! };
   }
 
-  /** Forgets what comes after a tick: another future begins. */
+  /** Forgets the states after a tick: another future begins. */
   cut(tick: number): void {
-    for (const [at, state] of this.kept) {
-      if (at <= tick) continue;
-      this.kept.delete(at);
-      this.bytes -= state.length;
-    }
+    this.keepOnly((at) => at <= tick);
   }
 
   get size(): number {
     return this.kept.size;
   }
 
-  private thin(): void {
-    this.interval *= 2;
-    for (const [at, state] of this.kept) {
-      if (at % this.interval === 0) continue;
-      this.kept.delete(at);
-      this.bytes -= state.length;
+  // -1: all are later.
+  private indexBefore(tick: number): number {
+    let low = 0, high = this.ticks.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.ticks[middle]! <= tick) low = middle + 1;
+      else high = middle;
     }
+    return low - 1;
+  }
+
+  private keepOnly(stays: (tick: number) => boolean): void {
+    for (const at of this.ticks.filter((one) => !stays(one))) {
+      this.bytes -= this.kept.get(at)!.length;
+      this.kept.delete(at);
+    }
+    this.ticks = this.ticks.filter((at) => this.kept.has(at));
   }
 }

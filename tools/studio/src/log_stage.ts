@@ -57,7 +57,7 @@ export class LogStage extends Stage {
   /** From its tick on, the world comes from this state. */
   setAnchor(tick: number, state: Uint8Array): void {
     this.anchor = { tick, state };
-    this.history.cut(tick - 1);
+    this.history.cut(Math.max(tick - 1, this.first));
   }
 
   /** A canonical state that another instance computed. */
@@ -90,7 +90,7 @@ export class LogStage extends Stage {
 
   // The best state to start from: computed here, given, or recorded in the log.
   private nearest(tick: number): { tick: number; load: () => void } {
-    const kept = this.history.before(tick) ?? { tick: this.first, state: this.history.before(this.first)!.state };
+    const kept = this.history.before(tick)!; // the first tick is always kept
     let best = { tick: kept.tick, load: () => this.states.load(kept.state) };
     const { anchor, log } = this;
     if (anchor && anchor.tick <= tick && anchor.tick >= best.tick) {
