@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Builds the page of `lockstone studio` in build/studio/page, and the command with it.
 #
-# usage: tools/studio.sh [build | page | test]
+# usage: tools/studio.sh [build | page | test | bench]
 #
 #   build     (default) the page, then build/release/tools/lockstone with the page in it
 #   page      the page alone: WebAssembly by Emscripten, TypeScript by npm's packages
 #   test      builds, then drives the page in headless Chromium
+#   bench     builds, then measures how fast a log of ten minutes opens and is scrubbed
 #   --help    print this
 #
 # Missing Debian packages are installed first (as root or through sudo), packages of the npm registry
@@ -57,8 +58,9 @@ case $command in
     build
     command -v chromium >/dev/null || require_packages web-browser
     say "drive the page"
-    node --test tools/studio/test/*.test.mjs
+    node --test --test-concurrency=1 tools/studio/test/*.test.mjs
     ;;
+  bench) build && node tools/studio/bench/long_log.mjs ;;
   --help) usage ;;
   *) usage >&2; exit 2 ;;
 esac

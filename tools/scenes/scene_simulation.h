@@ -25,7 +25,8 @@ inline constexpr std::size_t k_config_bytes = 32;
 
 class SceneSimulation final : public Simulation {
  public:
-  /// `spare_bodies`: room for more bodies than the scene asks for, which changes none of its states.
+  /// `spare_bodies`: room for more bodies than the scene asks for, which changes none of its
+  /// states.
   SceneSimulation(const Scene& scene, std::uint64_t seed,
                   BroadPhaseKind broad_phase = BroadPhaseKind::tree,
                   std::uint32_t spare_bodies = 0);

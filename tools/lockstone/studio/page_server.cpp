@@ -64,8 +64,7 @@ namespace {
 
 std::string header_of(lws* connection, lws_token_indexes which) {
   std::array<char, 256> text{};
-  const int length =
-      lws_hdr_copy(connection, text.data(), static_cast<int>(text.size()), which);
+  const int length = lws_hdr_copy(connection, text.data(), static_cast<int>(text.size()), which);
   return length > 0 ? std::string(text.data(), static_cast<std::size_t>(length)) : std::string();
 }
 
@@ -137,7 +136,8 @@ int send_piece(lws* connection, Sending& sending) {
   std::array<unsigned char, LWS_PRE + k_piece_bytes> room{};
   std::copy_n(bytes.data() + sending.sent, count, room.data() + LWS_PRE);
   const auto kind = last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP;
-  if (lws_write(connection, room.data() + LWS_PRE, count, kind) < static_cast<int>(count)) return -1;
+  if (lws_write(connection, room.data() + LWS_PRE, count, kind) < static_cast<int>(count))
+    return -1;
   sending.sent += count;
   if (!last) return lws_callback_on_writable(connection) < 0 ? -1 : 0;
   sending.file = nullptr;

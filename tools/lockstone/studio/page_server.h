@@ -32,7 +32,7 @@ class PageServer {
   /// The address of index.html.
   [[nodiscard]] const std::string& address() const;
 
-  /// Answers requests until Ctrl-C or SIGTERM.
+  /// Serves requests until Ctrl-C or SIGTERM.
   void run();
 
   struct Parts;

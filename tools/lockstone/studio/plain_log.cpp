@@ -22,8 +22,8 @@ std::size_t longest_keyframe(replay::Source& source) {
 
 Status copy_ticks(const replay::LogReader& reader, replay::Recorder& recorder) {
   for (std::size_t i = 0; i < reader.hashes().size(); ++i) {
-    const Status status = recorder.record_tick(reader.chunk().first_tick + i,
-                                               reader.tick_inputs(i), reader.hashes()[i]);
+    const Status status = recorder.record_tick(reader.chunk().first_tick + i, reader.tick_inputs(i),
+                                               reader.hashes()[i]);
     if (status != Status::ok) return status;
   }
   return Status::ok;
@@ -61,8 +61,8 @@ Status copy_item(const replay::LogReader& reader, replay::LogItem item,
 std::optional<std::string> plain_log(replay::Source& source) {
   replay::MemorySink sink;
   {
-    replay::Recorder recorder(
-        sink, {.keyframe_bytes_max = longest_keyframe(source), .compress = false});
+    replay::Recorder recorder(sink,
+                              {.keyframe_bytes_max = longest_keyframe(source), .compress = false});
     replay::LogReader reader(source);
     if (reader.open() != Status::ok) return std::nullopt;
     for (replay::LogItem item = reader.next(); !replay::is_last(item); item = reader.next())

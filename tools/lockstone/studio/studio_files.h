@@ -10,8 +10,8 @@
 
 namespace lockstone::tool {
 
-/// The files for a session: no path opens the testbed, one .lks the log, two of them or one .tar the
-/// desync. Nothing, with a complaint and `exit_code`, where they cannot be shown.
+/// The files for a session: no path opens the testbed, one .lks the log, two of them or one .tar
+/// the desync. Nothing, with a complaint and `exit_code`, where they cannot be shown.
 [[nodiscard]] std::optional<ServedFiles> studio_files(const Games& games,
                                                       const std::vector<std::string>& paths,
                                                       int& exit_code);

@@ -26,7 +26,8 @@ float number(T value) {
 
 template <class T>
 double square(const Vec3<T>& v) {
-  const double x = testing::to_double(v.x), y = testing::to_double(v.y), z = testing::to_double(v.z);
+  const double x = testing::to_double(v.x), y = testing::to_double(v.y),
+               z = testing::to_double(v.z);
   return x * x + y * y + z * z;
 }
 

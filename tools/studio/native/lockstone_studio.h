@@ -10,13 +10,14 @@
 extern "C" {
 #endif
 
-/* Testbed --------------------------------------------------------------------------------------- */
+/* Testbed ---------------------------------------------------------------------------------------
+ */
 
 /* A built-in scene that takes actions, with room for more bodies. Until the first action its states
  * are those of the scene itself. */
 LKS_API lks_status lks_studio_scene(const char* name, uint64_t seed, lks_world** out);
 
-/* What the built-in scene shows, terminated. */
+/* The description of a built-in scene, terminated. */
 LKS_API const char* lks_studio_scene_text(uint32_t index);
 
 enum {
@@ -40,7 +41,8 @@ typedef struct lks_studio_action {
 /* Acts now, before the next step. */
 LKS_API lks_status lks_studio_act(lks_world* world, const lks_studio_action* action);
 
-/* Pictures -------------------------------------------------------------------------------------- */
+/* Pictures --------------------------------------------------------------------------------------
+ */
 
 /* Numbers of several items, one after another. They hold until the next call. */
 typedef struct lks_studio_list {
@@ -56,7 +58,7 @@ enum {
   LKS_STUDIO_JOINTS = 16   /* index, rows a and b, kind, place a, place b, N, N·m */
 };
 
-/* Draws what the bits of `wanted` name into five lists, in the order above. */
+/* Draws into five lists, in the order above, those whose bits are set in `wanted`. */
 LKS_API lks_status lks_studio_draw(const lks_world* world, uint32_t wanted, lks_studio_list* lists);
 
 /* Figures of a world after a step. */
@@ -84,7 +86,8 @@ enum {
 LKS_API lks_status lks_studio_compare(const lks_world* a, const lks_world* b, lks_studio_list* list,
                                       uint32_t* differing);
 
-/* Logs ------------------------------------------------------------------------------------------ */
+/* Logs ------------------------------------------------------------------------------------------
+ */
 
 typedef struct lks_studio_log lks_studio_log;
 

@@ -202,16 +202,16 @@ void check_same(const SimulationInfo& log, const SimulationInfo& here) {
       log.scene_hash == here.scene_hash && log.player_count == here.player_count &&
       log.input_bytes == here.input_bytes)
     return;
-  throw Failure{LKS_INCOMPATIBLE,
-                "the log is of simulation " + std::to_string(log.abi) + ", this build plays " +
-                    std::to_string(here.abi) + ", or its rules and scene are others"};
+  throw Failure{LKS_INCOMPATIBLE, "the log is of simulation " + std::to_string(log.abi) +
+                                      ", this build plays " + std::to_string(here.abi) +
+                                      ", or its rules and scene are others"};
 }
 
 std::unique_ptr<lks_world> world_of(const lks_studio_log& log) {
   auto made = scenes::make_simulation(log.config);
   if (!made.ok()) {
-    throw Failure{LKS_INCOMPATIBLE,
-                  "the log's game is neither the arena nor a built-in scene: " + text_of(log, 0, 0)};
+    throw Failure{LKS_INCOMPATIBLE, "the log's game is neither the arena nor a built-in scene: " +
+                                        text_of(log, 0, 0)};
   }
   check_same(log.header.info, made.value()->info());
   auto world = std::make_unique<lks_world>();

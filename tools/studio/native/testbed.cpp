@@ -131,8 +131,8 @@ void act(World& world, const lks_studio_action& action) {
 lks_status lks_studio_scene(const char* name, uint64_t seed, lks_world** out) {
   return call([&] {
     required(out, "out");
-    auto scene = scenes::make_play(&required(name, "name"), seed, BroadPhaseKind::tree,
-                                   k_spare_bodies);
+    auto scene =
+        scenes::make_play(&required(name, "name"), seed, BroadPhaseKind::tree, k_spare_bodies);
     if (!scene.ok()) throw failure(scene.status());
     auto world = std::make_unique<lks_world>();
     world->scene = std::move(scene).value();

@@ -37,7 +37,7 @@ export class Testbed implements Mode {
   dioramas: Diorama[] = [];
   private readonly selection = new Selection();
   private readonly charts = {
-    energy: new Chart("Energy", "J", "chart-energy"), contacts: new Chart("Contacts", "", "chart-contacts"),
+    energy: new Chart("Energy", "J", "chart-energy"), contacts: new Chart("Contacts awake", "", "chart-contacts"),
     islands: new Chart("Islands", "", "chart-islands"), ms: new Chart("Tick time", "ms", "chart-ms"),
   };
   private readonly counts = new Facts("count", COUNTS);
@@ -50,7 +50,7 @@ export class Testbed implements Mode {
     this.shown = new Set(seen.overlays.length > 0 ? seen.overlays : ["triggers", "sleeping"]);
     this.colour = COLOURINGS.find((name) => name === seen.colour) ?? "body";
     this.lead = this.open(seen.scene, seen.seed);
-    this.lead.replay(seen.journal, Math.min(seen.tick, 36_000));
+    this.lead.replay(seen.journal, Math.min(seen.tick, 36_000), () => this.measure());
     if (seen.camera.length === 6) picture.pose = seen.camera;
     this.buildPanel();
     this.measure();

@@ -33,10 +33,13 @@ export class TestbedStage extends Stage {
     this.journal.set(tick, [...(this.journal.get(tick) ?? []), action]);
   }
 
-  /** Takes over what was done elsewhere. */
-  replay(journal: ReadonlyMap<number, Action[]>, until: number): void {
+  /** Takes over the actions of another page; calls `played` after each tick. */
+  replay(journal: ReadonlyMap<number, Action[]>, until: number, played: () => void): void {
     for (const [tick, actions] of journal) this.journal.set(tick, actions);
-    while (this.tick < until) this.advance();
+    while (this.tick < until) {
+      this.advance();
+      played();
+    }
     this.view.reset();
   }
 
