@@ -255,9 +255,10 @@ lks_status lks_studio_log_step(const lks_studio_log* log, lks_world* world, uint
     const lks_studio_log& from = required(log, "log");
     auto* play = dynamic_cast<LogPlay*>(required(world, "world").scene.get());
     required(play, "world");
-    const std::uint64_t tick = play->simulation().tick() - from.header.match.start_tick;
+    const auto tick =
+        static_cast<std::size_t>(play->simulation().tick() - from.header.match.start_tick);
     if (tick >= from.hashes.size()) throw failure(Status::not_found);
-    play->set_inputs(from, static_cast<std::size_t>(tick));
+    play->set_inputs(from, tick);
     play->step();
     required(same, "same") = play->simulation().hash() == from.hashes[tick] ? 1 : 0;
   });

@@ -34,6 +34,14 @@ function length(metres: number): string {
   return metres === 0 ? "0" : `${(metres * (scale as number)).toPrecision(3)} ${unit}`;
 }
 
+/** Where to look next, by the verdict. */
+function nextStep({ stage, note = "" }: Desync): string {
+  if (note.includes("bit flipped")) return "One flipped bit: suspect memory, or a write through a stale pointer. Verify the log on another machine.";
+  if (note.includes("inputs of player")) return "The inputs differ: one side stepped with an input that the server did not confirm.";
+  if (stage) return `Both states were equal before stage ${stage} of this tick: its code, or the compiler's, is the first to look at.`;
+  return "Verify the log with the builds of both sides; where they differ, lockstone bisect LOG --with PROGRAM names the stage.";
+}
+
 export class DesyncView implements Mode {
   readonly panel = make("div");
   readonly lane = null;
@@ -89,7 +97,7 @@ export class DesyncView implements Mode {
     const { tick, last } = this.lead;
     this.counted.draw(tick, last);
     this.farthest.draw(tick, last);
-    this.selection.refresh(this.lead.world);
+    this.selection.refresh(this.lead.world, this.picture.target);
     [this.lead, this.there].forEach((stage, i) => {
       const label = document.querySelectorAll("#labels span")[i];
       if (label) label.textContent = `${this.labels[i]}  ${stage.hash}`;
@@ -193,7 +201,7 @@ export class DesyncView implements Mode {
     facts.set("there", desync.there ?? "–");
     facts.set("seen at", desync.state_at === undefined ? "–" : `tick ${desync.state_at}`);
     return make("div", { class: "verdict", id: "verdict" }, make("strong", {}, `They part in tick ${desync.tick}`), facts.element,
-      make("p", {}, desync.note ?? ""));
+      make("p", {}, desync.note ?? ""), make("p", { id: "next-step" }, nextStep(desync)));
   }
 
   private buildPanel(): void {

@@ -32,7 +32,7 @@ export class LogView implements Mode {
   private known = 0;
   private readonly proof = make("p", { id: "proof" });
 
-  constructor(engine: Engine, picture: Picture, bytes: Uint8Array, private readonly seekTo: (tick: number) => void) {
+  constructor(engine: Engine, private readonly picture: Picture, bytes: Uint8Array, private readonly seekTo: (tick: number) => void) {
     this.log = new LogFile(engine, bytes);
     this.lead = new LogStage(engine, this.log);
     this.figures = new Float32Array(SERIES.length * this.log.ticks);
@@ -60,7 +60,7 @@ export class LogView implements Mode {
   refresh(): void {
     const { lead, log } = this;
     this.timeline.draw(lead.tick, this.known);
-    this.selection.refresh(lead.world);
+    this.selection.refresh(lead.world, this.picture.target);
     this.tellProof();
     for (let slot = 0; slot < log.players && lead.tick < lead.last; ++slot) {
       const { origin, bytes } = log.inputOf(lead.tick, slot);

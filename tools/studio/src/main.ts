@@ -13,7 +13,7 @@ import { Transport } from "./transport.js";
 
 const KEYS: [string, string][] = [
   ["space", "play or pause"], ["← →", "one tick back or on"], ["shift ← →", "60 ticks"], ["R", "back by 600 ticks"], ["Home", "to the beginning"],
-  ["1 … 7", "testbed: contacts, joints, bounds, centres of mass, sleeping, triggers"], ["C", "testbed: colour by body, island, activity"],
+  ["1 … 6", "testbed: contacts, joints, bounds, centres of mass, sleeping, triggers"], ["C", "testbed: colour by body, island, activity"],
   ["F B U X", "testbed: throw, drop, push up, remove"], ["N", "log, desync: to the first difference"],
   ["P", "save a picture"], ["L", "copy a link"], ["T", "light or dark"],
 ];
@@ -90,7 +90,7 @@ async function open(engine: Engine, session: Session, view: ViewName): Promise<v
   byId("labels").replaceChildren(...mode.labels.map((text) => make("span", {}, text)));
   for (const tab of byId("views").children) tab.toggleAttribute("aria-current", false);
   byId(`view-${view}`).setAttribute("aria-current", "page");
-  document.body.dataset["view"] = view;
+  byId("share").hidden = !mode.link;
 }
 
 async function openSafely(engine: Engine, session: Session, view: ViewName): Promise<void> {

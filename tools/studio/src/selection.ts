@@ -1,7 +1,8 @@
 // The chosen body, in words and numbers.
 import { Body, Motion } from "../../web/src/body.js";
 import type { World } from "../../web/src/world.js";
-import { Facts, section } from "./dom.js";
+import type * as three from "three";
+import { Facts, section, toggle } from "./dom.js";
 
 const KINDS = ["sphere", "capsule", "box", "hull", "half-space", "mesh", "height field", "compound", "cylinder", "cone"];
 const NAMES = ["body", "shape", "motion", "mass", "position", "velocity", "turning", "state"] as const;
@@ -12,7 +13,8 @@ function numbers(values: ArrayLike<number>, digits = 4): string {
 
 export class Selection {
   readonly facts = new Facts("body", NAMES);
-  readonly element = section("Body", this.facts.element);
+  private isFollowed = false;
+  readonly element = section("Body", this.facts.element, toggle("follow", "follow", false, (on) => (this.isFollowed = on)));
   /** The id; 0: none. */
   id = 0n;
 
@@ -29,12 +31,14 @@ export class Selection {
     this.element.hidden = id === 0n;
   }
 
-  refresh(world: World): void {
+  /** `target`: of the camera, which follows the body where that is wanted. */
+  refresh(world: World, target: three.Vector3): void {
     if (this.id === 0n) return;
     const { facts } = this;
     try {
       const body = new Body(world, this.id);
       const view = body.view;
+      if (this.isFollowed) target.set(...view.position);
       const motion = Object.entries(Motion).find(([, value]) => value === view.motion)?.[0] ?? "";
       facts.set("body", `${body.index}`);
       facts.set("shape", KINDS[view.shape.kind] ?? "?");

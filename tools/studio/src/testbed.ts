@@ -71,7 +71,7 @@ export class Testbed implements Mode {
     for (const chart of Object.values(charts)) chart.draw(lead.tick, lead.last);
     const figures = lead.figures();
     for (const name of COUNTS) this.counts.set(name, String(figures[name]));
-    this.selection.refresh(lead.world);
+    this.selection.refresh(lead.world, this.picture.target);
     this.told.textContent = lead.refusal;
     this.told.hidden = lead.refusal === "";
   }
@@ -109,7 +109,7 @@ export class Testbed implements Mode {
   }
 
   key(key: string): boolean {
-    const at = "1234567".indexOf(key);
+    const at = "123456".indexOf(key);
     if (at >= 0 && SWITCHES[at]) {
       document.getElementById(`show-${SWITCHES[at]}`)?.click();
       return true;

@@ -61,6 +61,7 @@ async function checkDesync(page) {
   assert.match(await page.textContent("#compare-status"), /Tick 301: 1 body differs/);
   const body = /^body (\d+)/.exec(await page.textContent("#desync-object"))[1];
   assert.equal(await page.textContent("#differing tr:first-child td"), body);
+  assert.match(await page.textContent("#next-step"), /\w/);
   const yellow = await pixels(255, 250, 90, 40);
   assert.ok(yellow > 20, `${yellow} yellow pixels`);
 
