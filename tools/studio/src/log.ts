@@ -39,7 +39,8 @@ export class LogView implements Mode {
     const paint = painterOf(() => this.colour, () => this.shown.has("sleeping"), () => this.selection.row);
     this.dioramas = [new Diorama(this.lead, paint)];
     picture.frame(this.lead);
-    this.timeline = new LogLane(this.log, this.lead.proofs, this.figures, seekTo);
+    this.timeline = new LogLane(this.log, this.lead.proofs, this.figures,
+      (tick, moving) => seekTo(moving ? this.lead.cheapTick(tick) : tick));
     this.lane = this.timeline.canvas;
     this.inputs = new Facts("input", Array.from({ length: this.log.players }, (_, slot) => `player ${slot}`));
     this.buildPanel();

@@ -35,19 +35,18 @@ export class LogLane {
   private readonly still = make("canvas"); // everything but the proof and the position
   private stillKey = "";
 
-  constructor(private readonly log: LogFile, private readonly proofs: Proofs, private readonly figures: Float32Array, seek: (tick: number) => void) {
+  constructor(private readonly log: LogFile, private readonly proofs: Proofs, private readonly figures: Float32Array, seek: (tick: number, moving: boolean) => void) {
     this.deeds = deedsOf(log);
     this.canvas.style.height = `${this.height}px`;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", "Timeline: proof, energy, keyframes and events, inputs of each player");
-    const go = (event: PointerEvent) => {
-      if (event.buttons & 1) seek(log.startTick + Math.round((event.offsetX / this.canvas.clientWidth) * log.ticks));
-    };
+    const go = ({ offsetX }: PointerEvent, moving: boolean) => seek(log.startTick + Math.round((offsetX / this.canvas.clientWidth) * log.ticks), moving);
     this.canvas.onpointerdown = (event) => {
       this.canvas.setPointerCapture(event.pointerId);
-      go(event);
+      go(event, true);
     };
-    this.canvas.onpointermove = go;
+    this.canvas.onpointermove = (event) => event.buttons & 1 && go(event, true);
+    this.canvas.onpointerup = (event) => go(event, false);
   }
 
   get height(): number {

@@ -8,6 +8,7 @@ import { Stage } from "./stage.js";
 export const Proof = { unknown: 0, same: 1, different: 2 } as const;
 const KEEP_EVERY = 15; // ticks
 const MOST_BYTES = 512e6;
+const CHEAP_TICKS = 60; // that are computed while a finger moves
 
 /** Verdicts on each tick of a log. */
 export class Proofs {
@@ -63,6 +64,12 @@ export class LogStage extends Stage {
   /** A canonical state that another instance computed. */
   keep(tick: number, state: Uint8Array): void {
     this.history.put(tick, state);
+  }
+
+  /** The tick itself, or an earlier one that takes less computing to go to. */
+  cheapTick(tick: number): number {
+    const near = this.nearest(Math.min(Math.max(tick, this.first), this.last)).tick;
+    return tick - near > CHEAP_TICKS ? near : tick;
   }
 
   save(): Uint8Array {
