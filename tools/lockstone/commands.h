@@ -21,6 +21,8 @@ void add_scenes_command(CLI::App& app, int& exit_code);
 void add_run_command(CLI::App& app, Tool& tool);
 void add_numerics_command(CLI::App& app, int& exit_code);
 void add_demo_command(CLI::App& app, Tool& tool);
+void add_studio_command(CLI::App& app, Tool& tool);
+[[nodiscard]] bool has_studio();  ///< its page is embedded
 void add_fuzz_pairs_command(CLI::App& app, int& exit_code);
 void add_fuzz_rollback_command(CLI::App& app, int& exit_code);
 void add_fuzz_scene_command(CLI::App& app, int& exit_code);

@@ -36,15 +36,17 @@ Games built_in_games() {
 
 // The commands for any game, and those that show and measure the library itself.
 std::vector<CommandGroup> all_commands() {
-  CommandGroup scenes = game_commands(), matches = match_commands(), faults = fault_commands();
+  CommandGroup scenes = game_commands(), matches = match_commands(), logs = log_commands(),
+               faults = fault_commands();
   scenes.commands.insert(scenes.commands.begin(), {add_plain<add_scenes_command>, add_run_command});
   scenes.commands.push_back(add_plain<add_numerics_command>);
   matches.commands.insert(matches.commands.begin(), add_demo_command);
+  logs.commands.push_back(add_studio_command);
   faults.commands.insert(faults.commands.begin(), add_plain<add_bench_command>);
   faults.commands.push_back(add_plain<add_fuzz_pairs_command>);
   faults.commands.push_back(add_plain<add_fuzz_scene_command>);
   faults.commands.push_back(add_plain<add_fuzz_rollback_command>);
-  return {scenes, matches, log_commands(), {"Assets", {add_plain<add_asset_command>}}, faults};
+  return {scenes, matches, logs, {"Assets", {add_plain<add_asset_command>}}, faults};
 }
 
 }  // namespace

@@ -16,8 +16,9 @@ constexpr std::uint32_t k_arena_golden_ticks = 150;
 
 class WorldPlay final : public ScenePlay {
  public:
-  WorldPlay(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase)
-      : simulation_(scene, seed, broad_phase) {}
+  WorldPlay(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase,
+            std::uint32_t spare_bodies)
+      : simulation_(scene, seed, broad_phase, spare_bodies) {}
 
   [[nodiscard]] std::span<const PlayerInput> next_inputs() override { return {&k_absent, 1}; }
   [[nodiscard]] Simulation& simulation() override { return simulation_; }
@@ -77,7 +78,8 @@ std::uint32_t count_bodies(const SceneSummary& scene) {
 }
 
 Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name, std::uint64_t seed,
-                                             BroadPhaseKind broad_phase) {
+                                             BroadPhaseKind broad_phase,
+                                             std::uint32_t spare_bodies) {
   if (name == k_arena_name) {
     arena::ArenaConfig config;
     config.seed = seed;
@@ -85,7 +87,8 @@ Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name, std::uint64_
   }
   const Scene* scene = find_scene(name);
   if (scene == nullptr) return Status::not_found;
-  return std::unique_ptr<ScenePlay>(std::make_unique<WorldPlay>(*scene, seed, broad_phase));
+  return std::unique_ptr<ScenePlay>(
+      std::make_unique<WorldPlay>(*scene, seed, broad_phase, spare_bodies));
 }
 
 Result<std::unique_ptr<Simulation>> make_simulation(ByteView config) {

@@ -45,9 +45,11 @@ class ScenePlay {
   virtual void set_task_runner(TaskRunner* runner, TaskPieces pieces) = 0;
 };
 
-/// not_found for an unknown name. The broad phase changes no result.
+/// not_found for an unknown name. The broad phase changes no result, and `spare_bodies`, room for
+/// bodies besides those of a scene on a bare world, neither.
 [[nodiscard]] Result<std::unique_ptr<ScenePlay>> make_play(
-    std::string_view name, std::uint64_t seed, BroadPhaseKind broad_phase = BroadPhaseKind::tree);
+    std::string_view name, std::uint64_t seed, BroadPhaseKind broad_phase = BroadPhaseKind::tree,
+    std::uint32_t spare_bodies = 0);
 
 /// Makes whatever simulation configuration bytes name: the arena or a scene. For tests; the tools
 /// go by their list of games.

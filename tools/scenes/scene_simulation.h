@@ -25,8 +25,11 @@ inline constexpr std::size_t k_config_bytes = 32;
 
 class SceneSimulation final : public Simulation {
  public:
+  /// `spare_bodies`: room for more bodies than the scene asks for, which changes none of its
+  /// states.
   SceneSimulation(const Scene& scene, std::uint64_t seed,
-                  BroadPhaseKind broad_phase = BroadPhaseKind::tree);
+                  BroadPhaseKind broad_phase = BroadPhaseKind::tree,
+                  std::uint32_t spare_bodies = 0);
 
   [[nodiscard]] SimulationInfo info() const override { return info_; }
   [[nodiscard]] std::uint64_t tick() const override { return world_.tick(); }

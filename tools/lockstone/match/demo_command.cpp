@@ -173,6 +173,11 @@ void print_summary(const DemoOptions& options, const MatchSummary& summary,
   row("scores", scores_of(simulation));
   row("final hash", hash_text(summary.final_hash));
   row("picture", options.svg);
+  if (!has_studio()) return;
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  row("to watch it",
+      fmt::format("{} studio {}", error ? program_name() : program.string(), options.match.record));
 }
 
 bool draw_end(const DemoOptions& options, const MatchHost& host) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -9,6 +11,7 @@ namespace lockstone::tool {
 namespace {
 
 constexpr std::size_t k_block_bytes = 512;
+constexpr int k_octal = 8;
 
 // Offsets of a header's fields.
 constexpr std::size_t k_mode = 100;
@@ -43,6 +46,16 @@ std::array<char, k_block_bytes> header_of(const TarEntry& entry) {
   return header;
 }
 
+std::size_t whole_blocks(std::size_t bytes) {
+  return (bytes + k_block_bytes - 1) / k_block_bytes * k_block_bytes;
+}
+
+// Up to the first zero.
+std::string text_at(ByteView archive, std::size_t at, std::size_t room) {
+  const auto* letters = reinterpret_cast<const char*>(archive.data() + at);
+  return {letters, strnlen(letters, room)};
+}
+
 }  // namespace
 
 std::vector<std::byte> make_tar(const std::vector<TarEntry>& entries) {
@@ -51,10 +64,26 @@ std::vector<std::byte> make_tar(const std::vector<TarEntry>& entries) {
     for (char c : header_of(entry))
       archive.push_back(static_cast<std::byte>(c));
     archive.insert(archive.end(), entry.bytes.begin(), entry.bytes.end());
-    archive.resize((archive.size() + k_block_bytes - 1) / k_block_bytes * k_block_bytes);
+    archive.resize(whole_blocks(archive.size()));
   }
   archive.resize(archive.size() + 2 * k_block_bytes);
   return archive;
+}
+
+std::vector<TarEntry> read_tar(ByteView archive) {
+  std::vector<TarEntry> entries;
+  while (archive.size() >= k_block_bytes) {
+    const std::string name = text_at(archive, 0, k_mode);
+    const std::string size_text = text_at(archive, k_size, k_time - k_size);
+    char* end = nullptr;
+    const std::uint64_t size = std::strtoull(size_text.c_str(), &end, k_octal);
+    archive = archive.subspan(k_block_bytes);
+    if (name.empty() || end == size_text.c_str() || size > archive.size()) break;
+    const ByteView bytes = archive.first(static_cast<std::size_t>(size));
+    entries.push_back({name, {bytes.begin(), bytes.end()}});
+    archive = archive.subspan(std::min(archive.size(), whole_blocks(bytes.size())));
+  }
+  return entries;
 }
 
 }  // namespace lockstone::tool

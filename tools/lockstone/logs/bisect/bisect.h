@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,10 @@ struct BisectReport {
   StateDifference difference;  ///< after the tick, or at `difference_tick`
   std::uint64_t difference_tick = 0;
   std::string note;  ///< further remarks
+
+  /// Canonical, at `difference_tick`: of two logs, where both are known; else empty.
+  std::vector<std::byte> state_here;
+  std::vector<std::byte> state_there;
 
   /// `tick 1842, body 17 "crate", velocity.y: 0x… here, 0x… there`
   [[nodiscard]] std::string to_line() const;

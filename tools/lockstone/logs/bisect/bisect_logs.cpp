@@ -47,23 +47,30 @@ struct Side {
   }
 };
 
-// Describes a difference with the sides in their order: `is_here` says that `recorded` is the
-// first.
-StateDifference describe_sides(const Simulation& simulation, ByteView recorded, ByteView computed,
-                               bool is_here) {
-  return is_here ? simulation.describe(recorded, computed)
-                 : simulation.describe(computed, recorded);
+// Notes down both states, and describes their difference.
+void note_states(const Simulation& simulation, std::vector<std::byte> here,
+                 std::vector<std::byte> there, BisectReport& report) {
+  report.difference = simulation.describe(here, there);
+  report.difference_tick = simulation.tick();
+  report.state_here = std::move(here);
+  report.state_there = std::move(there);
+}
+
+// The same with the sides in their order: `is_here` says that `recorded` is the first.
+void note_sides(const Simulation& simulation, std::vector<std::byte> recorded,
+                std::vector<std::byte> computed, bool is_here, BisectReport& report) {
+  if (!is_here) std::swap(recorded, computed);
+  note_states(simulation, std::move(recorded), std::move(computed), report);
 }
 
 // Looks for one flipped bit of the state behind the tick that explains the recorded hash.
 bool blame_one_bit(Side& odd, bool is_here, BisectReport& report) {
   Simulation& simulation = *odd.found.simulation;
-  const std::vector<std::byte> computed = canonical_bytes(simulation);
-  const std::vector<std::byte> flipped =
+  std::vector<std::byte> computed = canonical_bytes(simulation);
+  std::vector<std::byte> flipped =
       find_flipped_bit(*odd.log.game, simulation, odd.found.ticks->hash());
   if (flipped.empty()) return false;
-  report.difference = describe_sides(simulation, flipped, computed, is_here);
-  report.difference_tick = simulation.tick();
+  note_sides(simulation, std::move(flipped), std::move(computed), is_here, report);
   report.note += "; its hash is that of the state here with this one bit flipped";
   return true;
 }
@@ -83,10 +90,9 @@ void blame(Side& here, Side& there, BisectReport& report) {
     report.note += "; no keyframe after the tick says more";
     return;
   }
-  const std::vector<std::byte> computed = canonical_bytes(*odd.found.simulation);
-  report.difference =
-      describe_sides(*odd.found.simulation, odd.found.ticks->snapshot(), computed, is_here);
-  report.difference_tick = odd.found.simulation->tick();
+  const ByteView recorded = odd.found.ticks->snapshot();
+  note_sides(*odd.found.simulation, {recorded.begin(), recorded.end()},
+             canonical_bytes(*odd.found.simulation), is_here, report);
   report.note += "; the field is that of its next keyframe";
 }
 
@@ -94,9 +100,8 @@ void explain(Side& here, Side& there, BisectReport& report) {
   const Simulation& simulation = *here.found.simulation;
   if (simulation.hash() == there.found.simulation->hash()) return blame(here, there, report);
   report.stage = first_difference(here.stages, there.stages);
-  report.difference =
-      simulation.describe(canonical_bytes(simulation), canonical_bytes(*there.found.simulation));
-  report.difference_tick = simulation.tick();
+  note_states(simulation, canonical_bytes(simulation), canonical_bytes(*there.found.simulation),
+              report);
 }
 
 // Builds that compute different results fail each other's canary, and bisecting them must still

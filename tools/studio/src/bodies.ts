@@ -1,0 +1,187 @@
+// The bodies of a world as instances: one mesh for each form, filled anew in every frame.
+import * as three from "three";
+import * as c from "../../web/src/declarations.js";
+import { Body } from "../../web/src/body.js";
+import { type OutlinePart, outlineOf } from "../../web/src/outline.js";
+import type { World } from "../../web/src/world.js";
+import { STRIDE, State } from "./engine.js";
+
+/** A part of a body: the form that it shares with others, and its place in the body. */
+interface Part {
+  form: string;
+  local: three.Matrix4;
+}
+
+/** Chooses the colour of a body by its row of the list `bodies`. */
+export type Painter = (row: number, state: number, island: number, out: three.Color) => void;
+
+const FLOOR_SIZE = 400;
+const FIRST_ROOM = 16;
+
+function unitGeometry(kind: number): three.BufferGeometry {
+  switch (kind) {
+    case c.LKS_SPHERE: return new three.SphereGeometry(1, 20, 14);
+    case c.LKS_BOX: return new three.BoxGeometry(2, 2, 2);
+    case c.LKS_CYLINDER: return new three.CylinderGeometry(1, 1, 2, 24);
+    case c.LKS_CONE: return new three.ConeGeometry(1, 1, 24).translate(0, 0.25, 0);
+    default: return new three.PlaneGeometry(FLOOR_SIZE, FLOOR_SIZE).rotateX(-Math.PI / 2);
+  }
+}
+
+/** Meshes of one form; solid or transparent. */
+class Batch {
+  mesh: three.InstancedMesh;
+  private count = 0;
+
+  constructor(private readonly group: three.Group, geometry: three.BufferGeometry, private readonly material: three.Material,
+    private readonly shadow: boolean) {
+    this.mesh = this.make(geometry, FIRST_ROOM);
+  }
+
+  begin(): void {
+    this.count = 0;
+  }
+
+  add(matrix: three.Matrix4, color: three.Color): void {
+    if (this.count === this.mesh.instanceMatrix.count) this.grow();
+    this.mesh.setMatrixAt(this.count, matrix);
+    this.mesh.setColorAt(this.count++, color);
+  }
+
+  finish(): void {
+    this.mesh.count = this.count;
+    this.mesh.instanceMatrix.needsUpdate = true;
+    if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
+  }
+
+  dispose(): void {
+    this.group.remove(this.mesh);
+    this.mesh.geometry.dispose();
+    this.mesh.dispose();
+  }
+
+  private make(geometry: three.BufferGeometry, room: number): three.InstancedMesh {
+    const mesh = new three.InstancedMesh(geometry, this.material, room);
+    mesh.frustumCulled = false;
+    mesh.castShadow = this.shadow;
+    mesh.receiveShadow = true;
+    this.group.add(mesh);
+    return mesh;
+  }
+
+  private grow(): void {
+    const { mesh } = this;
+    this.group.remove(mesh);
+    this.mesh = this.make(mesh.geometry, 2 * mesh.instanceMatrix.count);
+    this.mesh.instanceMatrix.array.set(mesh.instanceMatrix.array);
+    this.mesh.setColorAt(0, new three.Color());
+    if (mesh.instanceColor) this.mesh.instanceColor!.array.set(mesh.instanceColor.array);
+    mesh.dispose();
+  }
+}
+
+export class Bodies {
+  readonly group = new three.Group();
+  private readonly batches = new Map<string, Batch>();
+  private readonly outlines = new Map<string, Part[]>();
+  private readonly geometries = new Map<string, three.BufferGeometry>();
+  private readonly solid = new three.MeshStandardMaterial({ roughness: 0.75, flatShading: true, side: three.DoubleSide });
+  private readonly clear = new three.MeshStandardMaterial({ roughness: 0.9, transparent: true, opacity: 0.25, depthWrite: false });
+  readonly floor = new three.MeshStandardMaterial({ roughness: 1 });
+
+  constructor() {
+    const grid = gridTexture();
+    grid.repeat.set(FLOOR_SIZE / 2, FLOOR_SIZE / 2);
+    this.floor.map = grid;
+  }
+
+  /** Fills all meshes. `list` is the list `bodies` of the world. */
+  update(world: World, ids: BigUint64Array, list: Float32Array, positions: Float32Array, orientations: Float32Array, paint: Painter): void {
+    for (const batch of this.batches.values()) batch.begin();
+    const color = new three.Color(), pose = new three.Matrix4(), whole = new three.Matrix4();
+    const place = new three.Vector3(), turn = new three.Quaternion(), one = new three.Vector3(1, 1, 1);
+    for (let at = 0; at < list.length; at += STRIDE.bodies) {
+      const [row, state, island, mark] = [list[at]!, list[at + 1]!, list[at + 2]!, list[at + 3]!];
+      if (!ids[row]) continue;
+      place.fromArray(positions, 3 * row);
+      turn.fromArray(orientations, 4 * row);
+      pose.compose(place, turn, one);
+      paint(row, state, island, color);
+      for (const { form, local } of this.partsOf(world, ids[row]!, mark)) {
+        this.batch(form, state).add(whole.multiplyMatrices(pose, local), color);
+      }
+    }
+    for (const batch of this.batches.values()) batch.finish();
+  }
+
+  dispose(): void {
+    for (const batch of this.batches.values()) batch.dispose();
+  }
+
+  private batch(form: string, state: number): Batch {
+    const kind = form.startsWith("floor") ? "floor" : state === State.trigger ? "clear" : state === State.fixed ? "fixed" : "solid";
+    const key = `${kind} ${form}`;
+    let batch = this.batches.get(key);
+    if (!batch) {
+      const material = kind === "floor" ? this.floor : kind === "clear" ? this.clear : this.solid;
+      batch = new Batch(this.group, this.geometries.get(form)!, material, kind === "solid" || kind === "fixed");
+      this.batches.set(key, batch);
+    }
+    return batch;
+  }
+
+  // A body keeps its outline as long as its shape has this mark.
+  private partsOf(world: World, id: bigint, mark: number): Part[] {
+    const key = `${id} ${mark}`;
+    let parts = this.outlines.get(key);
+    if (!parts) {
+      const outline = outlineOf(new Body(world, id));
+      parts = outline.parts.map((part) => this.partOf(part));
+      if (outline.triangles.length > 0) parts.push(this.trianglesOf(outline.triangles, mark));
+      this.outlines.set(key, parts);
+    }
+    return parts;
+  }
+
+  private partOf({ kind, size, place, axes }: OutlinePart): Part {
+    const [x = 1, y = 1, z = 1] = size;
+    const form = kind === c.LKS_CAPSULE ? `capsule ${x} ${y}` : kind === c.LKS_HALF_SPACE ? "floor" : `form ${kind}`;
+    if (!this.geometries.has(form)) {
+      this.geometries.set(form, kind === c.LKS_CAPSULE ? new three.CapsuleGeometry(x, 2 * y, 6, 16) : unitGeometry(kind));
+    }
+    const scale = kind === c.LKS_SPHERE ? [x, x, x] : kind === c.LKS_BOX ? [x, y, z]
+      : kind === c.LKS_CYLINDER || kind === c.LKS_CONE ? [x, y, x] : [1, 1, 1];
+    const [a, b, d] = [0, 3, 6].map((i, k) => new three.Vector3().fromArray(axes, i).multiplyScalar(scale[k]!));
+    const local = new three.Matrix4().makeBasis(a!, b!, d!).setPosition(place[0]!, place[1]!, place[2]!);
+    return { form, local };
+  }
+
+  private trianglesOf(triangles: Float32Array, mark: number): Part {
+    const form = `triangles ${mark} ${triangles.length}`;
+    if (!this.geometries.has(form)) {
+      const geometry = new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(triangles, 3));
+      geometry.computeVertexNormals();
+      this.geometries.set(form, geometry);
+    }
+    return { form, local: new three.Matrix4() };
+  }
+}
+
+function gridTexture(): three.Texture {
+  const size = 128;
+  const canvas = Object.assign(document.createElement("canvas"), { width: size, height: size });
+  const pen = canvas.getContext("2d")!;
+  pen.fillStyle = "#fff";
+  pen.fillRect(0, 0, size, size);
+  pen.strokeStyle = "#d4d9df";
+  pen.lineWidth = 2;
+  pen.strokeRect(0, 0, size, size);
+  pen.strokeStyle = "#eceff2";
+  pen.strokeRect(size / 2, 0, 0.1, size);
+  pen.strokeRect(0, size / 2, size, 0.1);
+  const texture = new three.CanvasTexture(canvas);
+  texture.wrapS = texture.wrapT = three.RepeatWrapping;
+  texture.anisotropy = 8;
+  texture.colorSpace = three.SRGBColorSpace;
+  return texture;
+}

@@ -1,0 +1,107 @@
+// The studio's WebAssembly: the npm package's classes over it, and its own functions.
+import type { Exports, Heap } from "../../web/src/heap.js";
+import { type Lockstone, loadFrom } from "../../web/src/load.js";
+import { World } from "../../web/src/world.js";
+
+/** Functions of tools/studio/native/lockstone_studio.h. */
+interface StudioFunctions {
+  lks_studio_scene(name: number, seed: bigint, out: number): number;
+  lks_studio_scene_text(index: number): number;
+  lks_studio_act(world: number, action: number): number;
+  lks_studio_draw(world: number, wanted: number, lists: number): number;
+  lks_studio_measure(world: number, out: number): number;
+  lks_studio_compare(a: number, b: number, list: number, differing: number): number;
+  lks_studio_log_open(bytes: number, count: number, out: number): number;
+  lks_studio_log_close(log: number): void;
+  lks_studio_log_describe(log: number, out: number): number;
+  lks_studio_log_text(log: number, which: number, index: number, text: number, capacity: number): number;
+  lks_studio_log_world(log: number, out: number): number;
+  lks_studio_log_keyframe(log: number, index: number, world: number): number;
+  lks_studio_log_step(log: number, world: number, same: number): number;
+}
+
+/** Figures of a world after a step. */
+export interface Figures {
+  kinetic: number;
+  potential: number;
+  bodies: number;
+  awake: number;
+  asleep: number;
+  contacts: number;
+  points: number;
+  islands: number;
+  joints: number;
+}
+
+/** Bits of `draw`, and the numbers that an item of each list has. */
+export const Drawn = { bodies: 1, bounds: 2, masses: 4, contacts: 8, joints: 16 } as const;
+export const STRIDE = { bodies: 4, bounds: 7, masses: 14, contacts: 10, joints: 12 } as const;
+export type Lists = { [name in keyof typeof STRIDE]: Float32Array };
+
+/** States of the list `bodies`. */
+export const State = { fixed: 0, kinematic: 1, awake: 2, asleep: 3, trigger: 4 } as const;
+
+const FIGURES = ["bodies", "awake", "asleep", "contacts", "points", "islands", "joints"] as const;
+const LIST_NAMES = ["bodies", "bounds", "masses", "contacts", "joints"] as const;
+
+export class Engine {
+  readonly heap: Heap;
+  readonly f: Exports & StudioFunctions;
+
+  private constructor(readonly lockstone: Lockstone) {
+    this.heap = lockstone.heap;
+    this.f = this.heap.f as Exports & StudioFunctions;
+  }
+
+  static async load(wasm: string | URL): Promise<Engine> {
+    const never = () => new URL(wasm);
+    return new Engine(await loadFrom({ simd: true, wasm }, never, never));
+  }
+
+  sceneNames(): string[] {
+    return Array.from({ length: this.f.lks_scene_count() }, (_, i) => this.heap.text(this.f.lks_scene_name(i)));
+  }
+  sceneText(index: number): string {
+    return this.heap.text(this.f.lks_studio_scene_text(index));
+  }
+
+  /** A scene that takes actions. */
+  scene(name: string, seed: bigint): World {
+    const { heap } = this;
+    heap.check(this.f.lks_studio_scene(heap.putText(name), seed, heap.output));
+    return this.world(heap.getWord(heap.output));
+  }
+
+  /** A world that the module made. */
+  world(address: number): World {
+    return new World(this.lockstone, {}, address);
+  }
+
+  /** Lists of numbers in the module's memory, until the next call. */
+  draw(world: World, wanted: number): Lists {
+    const { heap } = this;
+    heap.check(this.f.lks_studio_draw(world.address, wanted, heap.output));
+    const at = (i: number) => this.floats(heap.output + 8 * i);
+    return Object.fromEntries(LIST_NAMES.map((name, i) => [name, at(i)])) as Lists;
+  }
+
+  measure(world: World): Figures {
+    const { heap } = this;
+    heap.check(this.f.lks_studio_measure(world.address, heap.output));
+    const [kinetic, potential] = new Float64Array(heap.f.memory.buffer, heap.output, 2);
+    const counts = FIGURES.map((name, i) => [name, heap.getWord(heap.output + 16 + 4 * i)]);
+    return { kinetic, potential, ...Object.fromEntries(counts) } as Figures;
+  }
+
+  /** Four numbers a row: flags, m, m/s, degrees. */
+  compare(a: World, b: World): { rows: Float32Array; differing: number } {
+    const { heap } = this;
+    heap.check(this.f.lks_studio_compare(a.address, b.address, heap.output, heap.output + 8));
+    return { rows: this.floats(heap.output), differing: heap.getWord(heap.output + 8) };
+  }
+
+  private floats(list: number): Float32Array {
+    const { heap } = this;
+    return new Float32Array(heap.f.memory.buffer, heap.getWord(list), heap.getWord(list + 4));
+  }
+}

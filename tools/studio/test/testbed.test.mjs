@@ -1,0 +1,113 @@
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+
+import { cleanUp, golden, person, skip, withPage, withStudio } from "./support.mjs";
+
+after(cleanUp);
+
+/** Where the selected body is, m. */
+async function place(page) {
+  await person(page).frames();
+  return (await page.textContent("#body-position")).trim().split(/\s+/).slice(0, 3).map(Number);
+}
+
+test("scenes of the testbed have their golden hashes", { skip }, () => withStudio([], (address) => withPage(address, async (page) => {
+  for (const name of ["wall", "ragdoll", "arena"]) {
+    await page.goto(`${address}#scene=${name}&tick=20`);
+    await page.waitForFunction((scene) => document.getElementById("scene-name")?.value === scene, name);
+    await page.waitForFunction(() => document.getElementById("tick-text").textContent === "tick 20");
+    assert.deepEqual(await person(page).state(), { tick: 20, hash: golden[name].chain[1] });
+  }
+})));
+
+test("a pulled body follows the hand, and 600 ticks back and forth end in the same hash", { skip }, () => withStudio([], (address) =>
+  withPage(`${address}#scene=stack&tick=60&camera=0.6,0.3,14,0,9.5,0`, async (page) => {
+    const { frames, pause, press, state } = person(page);
+    await page.waitForSelector("#scene-name");
+    await pause();
+    const before = await state();
+    assert.equal(before.tick, 60);
+
+    // The middle of the picture shows the box on top.
+    const box = await page.locator("#picture").boundingBox();
+    const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+    await page.mouse.move(middle.x, middle.y);
+    await page.mouse.down();
+    const from = await place(page);
+    await page.mouse.move(middle.x, middle.y - 120, { steps: 4 });
+    await page.waitForFunction(() => Number(document.getElementById("tick-text").textContent.split(" ")[1]) > 90);
+    const to = await place(page);
+    await page.mouse.up();
+    await pause();
+    assert.ok(to[1] > from[1] + 0.5, `pulled from ${from} to ${to}`);
+
+    await page.click("#throw");
+    await pause();
+    const thrown = await state();
+    while ((await state()).tick < 660) await press("Shift+ArrowRight");
+    const late = await state();
+    await press("r");
+    const early = await state();
+    assert.equal(early.tick, late.tick - 600);
+    if (early.tick === before.tick) assert.equal(early.hash, before.hash);
+    for (let i = 0; i < 10; ++i) await press("Shift+ArrowRight");
+    assert.deepEqual(await state(), late);
+    await press("ArrowLeft");
+    await press("ArrowRight");
+    assert.deepEqual(await state(), late);
+    assert.ok(thrown.tick < late.tick);
+
+    // The link shows the same in another tab.
+    await press("l");
+    const other = await page.context().newPage();
+    await other.goto(page.url());
+    await other.waitForFunction((tick) => document.getElementById("tick-text").textContent === `tick ${tick}`, late.tick);
+    assert.deepEqual(await person(other).state(), late);
+    await other.close();
+    await frames();
+  })));
+
+test("overlays are drawn, and bodies come and go", { skip }, () => withStudio([], (address) =>
+  withPage(`${address}#scene=ragdoll&tick=240&show=triggers`, async (page) => {
+    const { pause, pixels, press, frames } = person(page);
+    await page.waitForSelector("#scene-name");
+    await pause();
+    await page.focus("#picture");
+    for (const [key, colour] of [["1", [255, 59, 107]], ["2", [34, 193, 238]], ["3", [155, 123, 255]]]) {
+      const before = await pixels(...colour);
+      await press(key);
+      await frames();
+      const after = await pixels(...colour);
+      assert.ok(after > before + 10, `overlay ${key}: ${before} pixels, then ${after}`);
+    }
+    const bodies = async () => Number(await page.textContent("#count-bodies"));
+    const count = await bodies();
+    await page.click("#drop");
+    await page.waitForFunction((least) => Number(document.getElementById("count-bodies").textContent) > least, count);
+    await pause();
+    assert.equal(await bodies(), count + 1);
+    await page.keyboard.press("t");
+    await frames();
+    assert.equal(await page.getAttribute("html", "data-theme"), "dark");
+  })));
+
+test("the page fits a phone", { skip }, () => withStudio([], (address) => withPage(address, async (page) => {
+  await page.waitForSelector("#scene-name");
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert.ok(wide <= 0, `${wide} px too wide`);
+  const { height } = await page.locator("#picture").boundingBox();
+  assert.ok(height > 250, `the picture is ${height} px high`);
+}, { width: 390, height: 844 })));
+
+test("the server tells nobody else anything", { skip }, () => withStudio([], async (address) => {
+  const answer = await fetch(address);
+  const policy = answer.headers.get("content-security-policy");
+  assert.match(policy, /^default-src 'none';/);
+  assert.doesNotMatch(policy, /unsafe-inline|unsafe-eval(?<!wasm-unsafe-eval)|\*/);
+  assert.equal(answer.headers.get("cache-control"), "no-store");
+  const { origin, port } = new URL(address);
+  assert.equal((await fetch(`${origin}/`)).status, 404);
+  assert.equal((await fetch(`${origin}/${"0".repeat(32)}/`)).status, 404);
+  assert.equal((await fetch(`${address}../index.html`)).status, 404);
+  await assert.rejects(fetch(`http://127.0.0.2:${port}/`));
+}));
