@@ -58,7 +58,13 @@ build() {
   build_module web simd -simd
   build_module web-plain plain ""
   say "compile the TypeScript"
-  "$node_modules/node_modules/.bin/tsc" -p tools/web --outDir "$package/dist"
+  # Beside the packages, where the compiler finds them.
+  rm -rf "$node_modules/src"
+  cp -r tools/web/src tools/web/tsconfig.json "$node_modules"
+  "$node_modules/node_modules/.bin/tsc" -p "$node_modules" --outDir "$package/dist"
+  # The package needs no other: the libraries of the one module that has some go into it.
+  "$node_modules/node_modules/.bin/esbuild" "$package/dist/crypto.js" --bundle --format=esm --minify \
+    --log-level=warning --allow-overwrite --outfile="$package/dist/crypto.js"
   cp tools/web/package.json tools/web/README.md LICENSE "$package"
   (cd "$package" && npm pack --silent --pack-destination "$out" >/dev/null)
 }
@@ -66,7 +72,9 @@ build() {
 # build_emulated: the client of another processor, for the long match.
 build_emulated() {
   require_packages cross
-  cmake --preset aarch64 -B "$out/aarch64" -DLOCKSTONE_PORTABLE_CRYPTO=ON >/dev/null
+  dpkg --print-foreign-architectures | grep -qx arm64 || as_root dpkg --add-architecture arm64
+  require_packages web-emulated
+  cmake --preset aarch64 -B "$out/aarch64" >/dev/null
   cmake --build "$out/aarch64" --target lockstone_stdio_client
   export LOCKSTONE_EMULATED="qemu-aarch64 -L /usr/aarch64-linux-gnu $out/aarch64/tools/lockstone_stdio_client"
 }

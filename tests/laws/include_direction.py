@@ -24,7 +24,7 @@ FLOORS = {
                  "step/input", "step/islands", "step/contacts", "step/limits", "step"],
     "world": ["derived", "debug", "state", "data", "phases", "phases/vehicle", "sleep", "phases/narrow", "phases/motion",
               "commands", "query", "history", ""],
-    "net": ["wire", "security/portable", "security", "transport", "transport/udp", "transport/enet",
+    "net": ["wire", "security", "transport", "transport/udp", "transport/enet",
             "transport/websocket", "routing", "session",
             "session/client", "session/server/data", "session/server/desync", "session/server/leaving",
             "session/server/entry", "session/server/ticks", "session/server/comparison", "session/server"],

@@ -56,11 +56,15 @@ export function load(options: LoadOptions = {}): Promise<Lockstone> {
     () => new URL("./lockstone-simd.wasm", import.meta.url));
 }
 
-/** Loads one of two files. */
-export async function loadFrom(options: LoadOptions, plain: () => URL, vectors: () => URL): Promise<Lockstone> {
+/** Functions that a module imports. `heap`: once it is loaded. */
+export type Imported = (heap: () => Heap) => Record<string, (...values: number[]) => number | void>;
+
+/** Loads one of two files. `more`: what it imports beside the system's functions, by modules. */
+export async function loadFrom(options: LoadOptions, plain: () => URL, vectors: () => URL,
+  more: Record<string, Imported> = {}): Promise<Lockstone> {
   const simd = options.simd ?? hasSimd();
   let heap: Heap | undefined;
-  const imports = importsOf(() => heap);
+  const imports = importsOf(() => heap, more);
   const instance = await instantiate(options.wasm ?? (simd ? vectors() : plain()), imports);
   const loaded = new Lockstone(instance.exports as unknown as Exports, simd);
   heap = loaded.heap;
@@ -68,7 +72,7 @@ export async function loadFrom(options: LoadOptions, plain: () => URL, vectors: 
 }
 
 /** The imports of the module: it needs next to nothing. `heap`: once it is loaded. */
-function importsOf(heap: () => Heap | undefined): WebAssembly.Imports {
+function importsOf(heap: () => Heap | undefined, more: Record<string, Imported>): WebAssembly.Imports {
   const fail = (): never => {
     throw new Error("Lockstone: a fault of the library; please report it");
   };
@@ -82,7 +86,8 @@ function importsOf(heap: () => Heap | undefined): WebAssembly.Imports {
   };
   // No files, no clock, no output: a call of any other import is a fault.
   const any = new Proxy(named, { get: (known, name) => known[name as string] ?? fail });
-  return new Proxy({}, { get: () => any }) as WebAssembly.Imports;
+  const others = Object.fromEntries(Object.entries(more).map(([name, imported]) => [name, imported(() => heap()!)]));
+  return new Proxy(others, { get: (known, module) => known[module as string] ?? any }) as WebAssembly.Imports;
 }
 
 async function instantiate(source: WasmSource, imports: WebAssembly.Imports): Promise<WebAssembly.Instance> {

@@ -3,6 +3,7 @@
  *
  * @packageDocumentation
  */
+import { cryptoImports } from "./crypto.js";
 import { type LoadOptions, Lockstone, loadFrom } from "./load.js";
 
 export * from "./full.js";
@@ -15,5 +16,5 @@ export { Recording } from "./recording.js";
 /** As `loadFull`, with the client of matches: a larger file. */
 export function loadSession(options: LoadOptions = {}): Promise<Lockstone> {
   return loadFrom(options, () => new URL("./lockstone-session.wasm", import.meta.url),
-    () => new URL("./lockstone-session-simd.wasm", import.meta.url));
+    () => new URL("./lockstone-session-simd.wasm", import.meta.url), { lockstone_crypto: cryptoImports });
 }
