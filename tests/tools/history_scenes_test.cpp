@@ -8,6 +8,7 @@
 #include <lockstone/literals.h>
 #include <lockstone/rollback_history.h>
 
+#include "tests/support/parameter_name.h"
 #include "tests/support/workload.h"
 #include "tools/scenes/build.h"
 #include "tools/scenes/scene.h"
@@ -108,7 +109,7 @@ std::vector<std::string> names() {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HistoryScenes, ::testing::ValuesIn(names()),
-                         [](const auto& scene) { return scene.param; });
+                         test::parameter_name);
 
 }  // namespace
 }  // namespace lockstone::scenes

@@ -12,6 +12,7 @@
 #include <lockstone/literals.h>
 #include <lockstone/world.h>
 
+#include "tests/support/parameter_name.h"
 #include "tests/support/workload.h"
 #include "tools/scenes/build.h"
 #include "tools/scenes/scene.h"
@@ -185,7 +186,7 @@ TEST_P(EverySceneBesideOthers, GoesTheWayItGoesAlone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneBesideOthers, ::testing::ValuesIn(names()),
-                         [](const auto& name) { return name.param; });
+                         test::parameter_name);
 
 // Fourteen stacks have 168 contacts, more than one island may have to be solved directly.
 TEST(Locality, LetsFourteenStacksStandAsOneStands) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/parameter_name.h"
 #include "tests/support/workload.h"
 #include "tools/scenes/play.h"
 #include "tools/scenes/scene.h"
@@ -88,7 +89,7 @@ TEST_P(EveryScene, KeepsItsBodiesInTheWorld) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, ::testing::ValuesIn(names()),
-                         [](const auto& name) { return name.param; });
+                         test::parameter_name);
 
 TEST(Scenes, AreMadeFromTheirConfiguration) {
   const auto play = make_play("pile", 7).value();

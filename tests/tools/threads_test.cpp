@@ -7,6 +7,7 @@
 
 #include <lockstone/thread_pool.h>
 
+#include "tests/support/parameter_name.h"
 #include "tests/support/shuffled_runner.h"
 #include "tests/support/workload.h"
 #include "tools/scenes/play.h"
@@ -70,7 +71,7 @@ TEST_P(EverySceneOnThreads, ComesOutTheSameInAnyOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneOnThreads, ::testing::ValuesIn(names()),
-                         [](const auto& name) { return name.param; });
+                         test::parameter_name);
 
 TEST(Threads, ComeAndGoWhileASceneRuns) {
   const Record alone = record_of("pile", nullptr);
