@@ -13,7 +13,6 @@
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "core/kernels/ball/ball_block_inl.h"
 #include "core/kernels/box/box_block_inl.h"
-#include "core/kernels/contact/contact_rows_inl.h"
 #include "core/kernels/contact/manifold_bounce_inl.h"
 #include "core/kernels/contact/manifold_iterate_inl.h"
 #include "core/kernels/contact/manifold_prepare_inl.h"
@@ -74,28 +73,28 @@ LKS_BLOCK_KERNELS(N_WASM)
 constexpr Kernels k_tables[] = {
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
-    {"sse4", N_SSE4::k_lanes, N_SSE4::solve_contact_rows, N_SSE4::compute_rotations,
-     N_SSE4::farthest_point, N_SSE4::heights_above, N_SSE4::mark_at_least, &k_manifolds_N_SSE4,
-     &k_balls_N_SSE4, &k_boxes_N_SSE4, &k_scalar_proximal},
+    {"sse4", N_SSE4::k_lanes, N_SSE4::compute_rotations, N_SSE4::farthest_point,
+     N_SSE4::heights_above, N_SSE4::mark_at_least, &k_manifolds_N_SSE4, &k_balls_N_SSE4,
+     &k_boxes_N_SSE4, &k_scalar_proximal},
 #endif
 #if HWY_TARGETS & HWY_AVX2
-    {"avx2", N_AVX2::k_lanes, N_AVX2::solve_contact_rows, N_AVX2::compute_rotations,
-     N_AVX2::farthest_point, N_AVX2::heights_above, N_AVX2::mark_at_least, &k_manifolds_N_AVX2,
-     &k_balls_N_AVX2, &k_boxes_N_AVX2, k_island_kernels},
+    {"avx2", N_AVX2::k_lanes, N_AVX2::compute_rotations, N_AVX2::farthest_point,
+     N_AVX2::heights_above, N_AVX2::mark_at_least, &k_manifolds_N_AVX2, &k_balls_N_AVX2,
+     &k_boxes_N_AVX2, k_island_kernels},
 #endif
 #if HWY_TARGETS & HWY_AVX3
-    {"avx512", N_AVX3::k_lanes, N_AVX3::solve_contact_rows, N_AVX3::compute_rotations,
-     N_AVX3::farthest_point, N_AVX3::heights_above, N_AVX3::mark_at_least, &k_manifolds_N_AVX3,
-     &k_balls_N_AVX3, &k_boxes_N_AVX3, k_island_kernels},
+    {"avx512", N_AVX3::k_lanes, N_AVX3::compute_rotations, N_AVX3::farthest_point,
+     N_AVX3::heights_above, N_AVX3::mark_at_least, &k_manifolds_N_AVX3, &k_balls_N_AVX3,
+     &k_boxes_N_AVX3, k_island_kernels},
 #endif
 #elif HWY_TARGETS & HWY_NEON
-    {"neon", N_NEON::k_lanes, N_NEON::solve_contact_rows, N_NEON::compute_rotations,
-     N_NEON::farthest_point, N_NEON::heights_above, N_NEON::mark_at_least, &k_manifolds_N_NEON,
-     &k_balls_N_NEON, &k_boxes_N_NEON, k_island_kernels},
+    {"neon", N_NEON::k_lanes, N_NEON::compute_rotations, N_NEON::farthest_point,
+     N_NEON::heights_above, N_NEON::mark_at_least, &k_manifolds_N_NEON, &k_balls_N_NEON,
+     &k_boxes_N_NEON, k_island_kernels},
 #elif HWY_TARGETS & HWY_WASM
-    {"wasm", N_WASM::k_lanes, N_WASM::solve_contact_rows, N_WASM::compute_rotations,
-     N_WASM::farthest_point, N_WASM::heights_above, N_WASM::mark_at_least, &k_manifolds_N_WASM,
-     &k_balls_N_WASM, &k_boxes_N_WASM, k_island_kernels},
+    {"wasm", N_WASM::k_lanes, N_WASM::compute_rotations, N_WASM::farthest_point,
+     N_WASM::heights_above, N_WASM::mark_at_least, &k_manifolds_N_WASM, &k_balls_N_WASM,
+     &k_boxes_N_WASM, k_island_kernels},
 #endif
     {},
 };

@@ -18,7 +18,6 @@ namespace lockstone::lanes {
 struct Kernels {
   std::string_view target;
   std::size_t lanes = 0;
-  void (*solve_contact_rows)(BodyVelocity* bodies, ContactBlock* blocks, std::size_t count);
   void (*compute_rotations)(const QuatField& quats, const std::uint32_t* indices, std::size_t count,
                             Mat3* matrices);
   Farthest (*farthest_point)(const PointColumns& points, const Direction32& n);

@@ -11,7 +11,6 @@ namespace {
 
 constexpr Kernels k_scalar{"scalar",
                            1,
-                           solve_contact_rows_scalar,
                            compute_rotations_scalar,
                            farthest_point_scalar,
                            heights_above_scalar,
@@ -120,10 +119,6 @@ const BoxKernels& box_kernels() {
 
 const ProximalKernels& proximal_kernels() {
   return *current().proximal;
-}
-
-void solve_contact_rows(std::span<BodyVelocity> bodies, std::span<ContactBlock> blocks) {
-  current().solve_contact_rows(bodies.data(), blocks.data(), blocks.size());
 }
 
 void compute_rotations(const QuatField& quats, std::span<const std::uint32_t> indices,

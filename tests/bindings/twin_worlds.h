@@ -103,6 +103,7 @@ class TwinWorlds : public ::testing::Test {
     raw.tick_rate = def_.tick_rate;
     raw.substeps = def_.substeps;
     raw.sleep_ms = def_.sleep_ms;
+    raw.vehicle_capacity = def_.vehicle_capacity;
     raw.gravity = c::raw_of(def_.gravity);
     EXPECT_EQ(lks_world_create(&raw, assets_, &twin_), LKS_OK) << lks_last_error();
     std::uint64_t hash = 0;

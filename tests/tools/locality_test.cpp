@@ -74,6 +74,7 @@ class Company {
       def.pair_capacity += more.pair_capacity;
       def.contact_capacity += more.contact_capacity;
       def.joint_capacity += more.joint_capacity;
+      def.vehicle_capacity += more.vehicle_capacity;
       add_assets(*other);
     }
     return World::create(def, std::make_shared<const AssetSet>(std::move(assets))).value();

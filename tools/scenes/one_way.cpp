@@ -102,7 +102,7 @@ void drive_one_way(World& world, std::uint64_t seed) {
 constinit const Scene k_one_way{
     .name = "one-way",
     .description = "boxes, balls and characters jump onto platforms from below",
-    .golden_ticks = 360,
+    .golden_ticks = 300,
     .define = small_world,
     .build = build_one_way,
     .drive = drive_one_way};

@@ -19,7 +19,9 @@ template <class Table, class Record>
 bool set_record(Table& table, std::uint32_t& count, const Record& record, bool exists) {
   LKS_ASSERT(count <= table.size());
   const auto end = table.begin() + count;
-  const auto at = std::ranges::lower_bound(table.begin(), end, record.key(), {}, &Record::key);
+  const auto at = std::lower_bound(
+      table.begin(), end, record,
+      [](const Record& one, const Record& other) { return one.key() < other.key(); });
   const bool is_known = at != end && at->key() == record.key();
   if (exists && !is_known && count == table.size()) return false;
   if (exists && !is_known) {

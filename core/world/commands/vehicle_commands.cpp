@@ -36,7 +36,9 @@ Status CommandExecutor::execute(const SetVehicle& command) {
   if (!can_be_chassis(world_, body)) return Status::capacity_exhausted;
   world_.waking.wake(body);
   const auto begin = world_.vehicles.begin(), end = begin + world_.header.vehicle_count;
-  const auto at = std::ranges::lower_bound(begin, end, body, {}, &VehicleRecord::chassis);
+  const auto at = std::lower_bound(
+      begin, end, body,
+      [](const VehicleRecord& vehicle, std::uint32_t wanted) { return vehicle.chassis < wanted; });
   if (at == end || at->chassis != body) {
     std::copy_backward(at, end, end + 1);
     ++world_.header.vehicle_count;

@@ -193,8 +193,9 @@ lks_status lks_drive_vehicle(lks_world* world, lks_body chassis,
 lks_status lks_vehicle_get(const lks_world* world, lks_body chassis, lks_vehicle_view* out) {
   return call([&] {
     const World& from = read(world);
+    const std::uint32_t size = required(out, "out").size;
     const std::optional<VehicleView> view = vehicle_of(from, existing_body(from, chassis));
     if (!view) throw invalid("chassis", "must be the chassis of a vehicle");
-    give(raw_of(*view), out, required(out, "out").size, "out");
+    give(raw_of(*view), out, size, "out");
   });
 }
