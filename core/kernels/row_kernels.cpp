@@ -4,7 +4,7 @@
 #include "core/math/wide/highway_setup.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/kernels/contact/contact_rows.cpp"
+#define HWY_TARGET_INCLUDE "core/kernels/row_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 #else
