@@ -289,7 +289,6 @@ TEST(Vehicles, PushTheGroundThatBearsThem) {
   VehicleDef def = car();
   def.axles[0].friction = def.axles[1].friction = Coefficient(1.9_r);
   const BodyHandle body = add_car(world, def, chassis);
-  BodyDef tyre;
   EXPECT_EQ(world.apply(SetMaterial{under, Surface{.friction = 1_r}}), Status::ok);
   drive(world, body, {.throttle = Unit::from_ratio(1, 4), .gear = 1});
   test::step(world, 60);
