@@ -43,7 +43,7 @@ bool WebSocketNetwork::start(bool tls) {
   info.protocols = k_protocols.data();
   info.user = this;
   info.gid = info.uid = -1;  // as it is
-  info.options = LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME;
+  info.options = LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME | LWS_SERVER_OPTION_EXPLICIT_VHOSTS;
   info.fd_limit_per_thread = static_cast<unsigned>(options.max_connections) + k_spare_descriptors;
   info.max_http_header_data = k_handshake_header_bytes;
   info.max_http_header_pool = static_cast<unsigned short>(options.max_connections);
@@ -57,7 +57,11 @@ bool WebSocketNetwork::start(bool tls) {
     info.client_ssl_ca_filepath = text_or_null(options.authority_file);
   }
   context_ = lws_create_context(&info);
-  return context_ != nullptr;
+  if (context_ == nullptr) return false;
+  if (lws_create_vhost(context_, &info) != nullptr) return true;
+  lws_context_destroy(context_);
+  context_ = nullptr;
+  return false;
 }
 
 Result<std::unique_ptr<WebSocketNetwork>> WebSocketNetwork::listen(
