@@ -63,7 +63,7 @@ build() {
   cp -r tools/web/src tools/web/tsconfig.json "$node_modules"
   "$node_modules/node_modules/.bin/tsc" -p "$node_modules" --outDir "$package/dist"
   # The package needs no other: the libraries of the one module that has some go into it.
-  "$node_modules/node_modules/.bin/esbuild" "$package/dist/crypto.js" --bundle --format=esm --minify \
+  "$node_modules/node_modules/.bin/esbuild" "$node_modules/src/crypto.ts" --bundle --format=esm --minify \
     --log-level=warning --allow-overwrite --outfile="$package/dist/crypto.js"
   cp tools/web/package.json tools/web/README.md LICENSE "$package"
   (cd "$package" && npm pack --silent --pack-destination "$out" >/dev/null)
