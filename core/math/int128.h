@@ -215,7 +215,7 @@ namespace words_128 = portable;
 }
 
 /// a · b / 2^shift, rounded to nearest, halves away from zero; saturates.
-[[nodiscard]] constexpr std::int64_t multiply_shift(std::int64_t a, std::int64_t b, int shift) {
+[[nodiscard]] constexpr std::int64_t saturated_product(std::int64_t a, std::int64_t b, int shift) {
   return saturate_to_int64(round_shift(multiply_wide(a, b), shift));
 }
 

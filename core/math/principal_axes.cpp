@@ -19,7 +19,7 @@ using Raw3 = std::array<std::int64_t, 3>;
 
 /// a · b · 2^-62.
 std::int64_t product(std::int64_t a, std::int64_t b) {
-  return multiply_shift(a, b, k_bits);
+  return saturated_product(a, b, k_bits);
 }
 
 struct Jacobi {

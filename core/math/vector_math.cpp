@@ -11,7 +11,7 @@ namespace {
 
 // Of any 64-bit numbers; sums of unshifted products could leave 128 bits.
 std::int64_t product(std::int64_t a, std::int64_t b, int shift) {
-  return multiply_shift(a, b, shift);
+  return saturated_product(a, b, shift);
 }
 
 }  // namespace

@@ -181,7 +181,8 @@ void turn_residual(const FreeAxes& axes, const TurnTime& time, int exponent, Tur
 // spin / (I_a · scale) · time
 RotationVector turn_about(const Vec3<Velocity>& spin, std::int64_t step, int scale_exponent) {
   const auto angle = [&](Velocity v) {
-    return RotationComponent::from_raw(multiply_shift(v.raw, step, k_step_bits + scale_exponent));
+    return RotationComponent::from_raw(
+        saturated_product(v.raw, step, k_step_bits + scale_exponent));
   };
   return {angle(spin.x), angle(spin.y), angle(spin.z)};
 }

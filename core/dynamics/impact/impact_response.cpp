@@ -79,7 +79,7 @@ struct Side {
     if (!turns || share == Unit{}) return free;
     const Vec3<Velocity> axis = cross_arm(arm, times(u, Velocity::from_integer(1)));
     const Vec3<Velocity> w = surface_velocity(body.inertia, axis);
-    const auto product = [](Velocity a, Velocity b) { return multiply_shift(a.raw, b.raw, 32); };
+    const auto product = [](Velocity a, Velocity b) { return saturated_product(a.raw, b.raw, 32); };
     const std::int64_t sum = product(axis.x, w.x) + product(axis.y, w.y) + product(axis.z, w.z);
     return free + raw::multiply_shift(std::max<std::int64_t>(sum, 0), share.raw, Unit::frac_bits);
   }
@@ -98,7 +98,7 @@ struct Work {
 
   // By an impulse along a direction in which the relative velocity went from `before` to `after`.
   void add(Velocity impulse, Velocity before, Velocity after) {
-    const auto half = [&](Velocity v) { return multiply_shift(impulse.raw, v.raw, 33); };
+    const auto half = [&](Velocity v) { return saturated_product(impulse.raw, v.raw, 33); };
     const std::int64_t first = half(before), last = half(after);
     sum = raw::saturating_add(sum, raw::saturating_add(first, last));
     gross = raw::saturating_add(gross, raw::saturating_add(magnitude(first), magnitude(last)));

@@ -33,14 +33,11 @@ struct PairRuleRecord {
   std::uint32_t body_a = 0;  // the lower index
   std::uint32_t body_b = 0;
   std::uint32_t flags = 0;  // PairRuleFlag, at least one
-  Coefficient friction{};
-  Coefficient restitution{};
-  Coefficient rolling_resistance{};
+  PairSurface surface{};
 
   friend bool operator==(const PairRuleRecord&, const PairRuleRecord&) = default;
 
   [[nodiscard]] RuleKey key() const { return {body_a, body_b}; }
-  [[nodiscard]] PairSurface surface() const { return {friction, restitution, rolling_resistance}; }
   [[nodiscard]] bool is_ignored() const { return (flags & k_pair_ignored) != 0; }
   [[nodiscard]] bool has_surface() const { return (flags & k_pair_has_surface) != 0; }
 };
@@ -49,33 +46,33 @@ struct PairRuleRecord {
 struct SurfaceRuleRecord {
   std::uint32_t tag_a = 0;  // not above tag_b
   std::uint32_t tag_b = 0;
-  Coefficient friction{};
-  Coefficient restitution{};
-  Coefficient rolling_resistance{};
+  PairSurface surface{};
 
   friend bool operator==(const SurfaceRuleRecord&, const SurfaceRuleRecord&) = default;
 
   [[nodiscard]] RuleKey key() const { return {tag_a, tag_b}; }
-  [[nodiscard]] PairSurface surface() const { return {friction, restitution, rolling_resistance}; }
 };
+
+template <class F>
+constexpr void visit_surface(PairSurface& surface, F&& f) {
+  visit_value("friction", "", surface.friction, f);
+  visit_value("restitution", "", surface.restitution, f);
+  visit_value("rolling_resistance", "", surface.rolling_resistance, f);
+}
 
 template <class F>
 constexpr void visit_fields(PairRuleRecord& record, F&& f) {
   visit_value("body_a", "", record.body_a, f);
   visit_value("body_b", "", record.body_b, f);
   visit_value("flags", "", record.flags, f);
-  visit_value("friction", "", record.friction, f);
-  visit_value("restitution", "", record.restitution, f);
-  visit_value("rolling_resistance", "", record.rolling_resistance, f);
+  visit_surface(record.surface, f);
 }
 
 template <class F>
 constexpr void visit_fields(SurfaceRuleRecord& record, F&& f) {
   visit_value("tag_a", "", record.tag_a, f);
   visit_value("tag_b", "", record.tag_b, f);
-  visit_value("friction", "", record.friction, f);
-  visit_value("restitution", "", record.restitution, f);
-  visit_value("rolling_resistance", "", record.rolling_resistance, f);
+  visit_surface(record.surface, f);
 }
 
 static_assert(visited_bytes<PairRuleRecord>() == sizeof(PairRuleRecord), "a field is missing");

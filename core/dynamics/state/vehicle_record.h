@@ -89,12 +89,19 @@ struct VehicleRecord {
   [[nodiscard]] bool casts_spheres() const { return (flags & k_vehicle_casts_spheres) != 0; }
 };
 
-/// The place of a wheel's centre in the axes of the chassis: of axle wheel / 2, the left one first.
+/// The highest place of a wheel's centre in the axes of the chassis; the left wheel of an axle is
+/// the first one.
+[[nodiscard]] inline Vec3<Length> highest_centre(const AxleRecord& axle, std::size_t wheel) {
+  Vec3<Length> centre = axle.mount;
+  centre.z += wheel % 2 == 0 ? -axle.half_track : axle.half_track;
+  return centre;
+}
+
+/// Where it is now: of axle wheel / 2.
 [[nodiscard]] inline Vec3<Length> centre_of_wheel(const VehicleRecord& vehicle, std::size_t wheel) {
   const AxleRecord& axle = vehicle.axles[wheel / 2];
-  Vec3<Length> centre = axle.mount;
+  Vec3<Length> centre = highest_centre(axle, wheel);
   centre.y += vehicle.wheels[wheel].compression - axle.travel;
-  centre.z += wheel % 2 == 0 ? -axle.half_track : axle.half_track;
   return centre;
 }
 

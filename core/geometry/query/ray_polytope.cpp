@@ -63,7 +63,7 @@ RawVec point_on(const LocalRay& ray, const RayRatio& ratio) {
   const UInt128 numerator{0, magnitude(ratio.numerator)};
   const auto share = static_cast<std::int64_t>(
       round_divide(numerator << 60, static_cast<std::uint64_t>(ratio.denominator)));
-  const auto part = [share](std::int64_t lane) { return multiply_shift(lane, share, 60); };
+  const auto part = [share](std::int64_t lane) { return saturated_product(lane, share, 60); };
   return ray.start + RawVec{part(ray.way.x), part(ray.way.y), part(ray.way.z)};
 }
 

@@ -42,7 +42,7 @@ RoundHit fraction_of(std::int64_t c, int shift, std::uint64_t denominator) {
 /// origin + fraction · translation, fine.
 RawVec point_on(const RawVec& origin, const RawVec& translation, std::int64_t fraction) {
   const auto part = [fraction](std::int64_t lane) {
-    return multiply_shift(lane, fraction, k_fraction_bits);
+    return saturated_product(lane, fraction, k_fraction_bits);
   };
   return origin + RawVec{part(translation.x), part(translation.y), part(translation.z)};
 }

@@ -108,7 +108,7 @@ void take_earlier(RimHit& best, const RimHit& other) {
 
 RawVec ray_point(const AxisRay& ray, std::int64_t fraction) {
   const auto part = [fraction](std::int64_t lane) {
-    return multiply_shift(lane, fraction, k_ray_bits);
+    return saturated_product(lane, fraction, k_ray_bits);
   };
   return ray.start + RawVec{part(ray.way.x), part(ray.way.y), part(ray.way.z)};
 }

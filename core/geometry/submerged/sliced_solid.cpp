@@ -92,7 +92,7 @@ void SlicedSolid::add_disc(const Outline& outline) {
   const std::int64_t y = raw::round_divide(sign * offset_ * k_one, sign * up);
   if (y < outline.y0 || y >= outline.y1) return;
   const std::int64_t r = outline.radius_at(y);
-  section_ = multiply_shift(r * r, k_pi_q60, 60 + 60 - k_submerged_bits);
+  section_ = saturated_product(r * r, k_pi_q60, 60 + 60 - k_submerged_bits);
 }
 
 void SlicedSolid::add(const Outline& outline) {

@@ -15,7 +15,7 @@ namespace lockstone::geometry {
 namespace {
 
 std::int64_t times_pi(std::int64_t x) {
-  return multiply_shift(x, k_pi_q60, 60);
+  return saturated_product(x, k_pi_q60, 60);
 }
 
 std::int64_t size_of(const Polytope& polytope) {

@@ -22,7 +22,7 @@ inline constexpr std::int64_t k_pi_q60 = 3622009729038561421;
 
 /// a · b of 30 fraction bits, to nearest.
 [[nodiscard]] constexpr std::int64_t product_q30(std::int64_t a, std::int64_t b) {
-  return multiply_shift(a, b, 30);
+  return saturated_product(a, b, 30);
 }
 
 /// A solid that is complete in itself, or a polyhedron.

@@ -1,6 +1,6 @@
 // The commands that set rules about pairs.
 
-#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/dynamics/state/one_way_bits.h"
@@ -8,31 +8,17 @@
 #include "core/world/commands/command_checks.h"
 #include "core/world/commands/command_executor.h"
 #include "core/world/commands/rule_changes.h"
+#include "core/world/data/sorted_table.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
 namespace {
 
-// Writes or removes the record with the key of `record` in a sorted table of `count` records.
-// Returns whether there was room.
+// The rule of a key, or none. Returns whether there was room.
 template <class Table, class Record>
-bool set_record(Table& table, std::uint32_t& count, const Record& record, bool exists) {
-  LKS_ASSERT(count <= table.size());
-  const auto end = table.begin() + count;
-  const auto at = std::lower_bound(
-      table.begin(), end, record,
-      [](const Record& one, const Record& other) { return one.key() < other.key(); });
-  const bool is_known = at != end && at->key() == record.key();
-  if (exists && !is_known && count == table.size()) return false;
-  if (exists && !is_known) {
-    std::copy_backward(at, end, end + 1);
-    ++count;
-  }
-  if (exists) *at = record;
-  if (!exists && is_known) {
-    std::copy(at + 1, end, at);
-    table[--count] = {};
-  }
+bool set_or_remove(Table& table, std::uint8_t& count, const Record& record, bool exists) {
+  if (exists) return set_record(table, count, record);
+  remove_records(table, count, [&](const Record& old) { return old.key() == record.key(); });
   return true;
 }
 
@@ -44,9 +30,7 @@ PairRuleRecord record_of(const SetPairRule& command) {
   if (!command.rule.collides) record.flags |= k_pair_ignored;
   if (!command.rule.surface) return record;
   record.flags |= k_pair_has_surface;
-  record.friction = command.rule.surface->friction;
-  record.restitution = command.rule.surface->restitution;
-  record.rolling_resistance = command.rule.surface->rolling_resistance;
+  record.surface = *command.rule.surface;
   return record;
 }
 
@@ -56,9 +40,7 @@ SurfaceRuleRecord record_of(const SetSurfaceRule& command) {
   record.tag_a = key.low;
   record.tag_b = key.high;
   if (!command.surface) return record;
-  record.friction = command.surface->friction;
-  record.restitution = command.surface->restitution;
-  record.rolling_resistance = command.surface->rolling_resistance;
+  record.surface = *command.surface;
   return record;
 }
 
@@ -87,35 +69,23 @@ bool has_room_for_surface_rule(const WorldData& world, const RuleKey& tags) {
 }
 
 void forget_rules_of(WorldData& world, std::uint32_t body) {
-  if (world.header.pair_rule_count == 0) return;
-  const auto end = world.pair_rules.begin() + world.header.pair_rule_count;
-  const auto kept = std::remove_if(world.pair_rules.begin(), end, [&](const auto& record) {
-    return record.body_a == body || record.body_b == body;
+  remove_records(world.pair_rules, world.header.pair_rule_count, [&](const PairRuleRecord& rule) {
+    return rule.body_a == body || rule.body_b == body;
   });
-  std::fill(kept, end, PairRuleRecord{});
-  world.header.pair_rule_count = static_cast<std::uint8_t>(kept - world.pair_rules.begin());
 }
 
 void forget_vehicle_of(WorldData& world, std::uint32_t body) {
-  VehicleRecord* vehicle = find_vehicle(world, body);
-  if (vehicle == nullptr) return;
-  const auto end = world.vehicles.begin() + world.header.vehicle_count;
-  std::copy(world.vehicles.begin() + (vehicle - world.vehicles.data()) + 1, end,
-            world.vehicles.begin() + (vehicle - world.vehicles.data()));
-  world.vehicles[--world.header.vehicle_count] = {};
+  remove_records(world.vehicles, world.header.vehicle_count,
+                 [&](const VehicleRecord& vehicle) { return vehicle.chassis == body; });
 }
 
 const VehicleRecord* find_vehicle(const WorldData& world, std::uint32_t body) {
   const auto all = std::span(world.vehicles).first(world.header.vehicle_count);
-  const auto at = std::ranges::lower_bound(all, body, {}, &VehicleRecord::chassis);
-  return at != all.end() && at->chassis == body ? &*at : nullptr;
+  return find_by_key(all, body);
 }
 
 VehicleRecord* find_vehicle(WorldData& world, std::uint32_t body) {
-  const VehicleRecord* found = find_vehicle(std::as_const(world), body);
-  return found == nullptr
-             ? nullptr
-             : &world.vehicles[static_cast<std::size_t>(found - world.vehicles.data())];
+  return const_cast<VehicleRecord*>(find_vehicle(std::as_const(world), body));
 }
 
 Status CommandExecutor::execute(const SetPairRule& command) {
@@ -123,11 +93,9 @@ Status CommandExecutor::execute(const SetPairRule& command) {
     return Status::stale_handle;
   if (command.a == command.b || !is_surface_or_none(command.rule.surface))
     return Status::invalid_argument;
-  const PairRuleRecord record = record_of(command);
-  std::uint32_t count = world_.header.pair_rule_count;
-  if (!set_record(world_.pair_rules, count, record, record.flags != 0))
+  if (!set_or_remove(world_.pair_rules, world_.header.pair_rule_count, record_of(command),
+                     !command.rule.collides || command.rule.surface))
     return Status::capacity_exhausted;
-  world_.header.pair_rule_count = static_cast<std::uint8_t>(count);
   world_.waking.disturb(command.a.index);
   world_.waking.disturb(command.b.index);
   return Status::ok;
@@ -135,10 +103,9 @@ Status CommandExecutor::execute(const SetPairRule& command) {
 
 Status CommandExecutor::execute(const SetSurfaceRule& command) {
   if (!is_surface_or_none(command.surface)) return Status::invalid_argument;
-  std::uint32_t count = world_.header.surface_rule_count;
-  if (!set_record(world_.surface_rules, count, record_of(command), command.surface.has_value()))
+  if (!set_or_remove(world_.surface_rules, world_.header.surface_rule_count, record_of(command),
+                     command.surface.has_value()))
     return Status::capacity_exhausted;
-  world_.header.surface_rule_count = static_cast<std::uint8_t>(count);
   world_.waking.wake_all();
   return Status::ok;
 }
@@ -166,7 +133,7 @@ PairRule pair_rule_of(const World& world, BodyHandle a, BodyHandle b) {
       find_rule(pair_rules_of(data, data.header), rule_key(a.index, b.index));
   if (record == nullptr) return rule;
   rule.collides = !record->is_ignored();
-  if (record->has_surface()) rule.surface = record->surface();
+  if (record->has_surface()) rule.surface = record->surface;
   return rule;
 }
 
@@ -176,7 +143,7 @@ std::optional<PairSurface> surface_rule_of(const World& world, std::uint32_t tag
   const SurfaceRuleRecord* record =
       find_rule(surface_rules_of(data, data.header), rule_key(tag_a, tag_b));
   if (record == nullptr) return {};
-  return record->surface();
+  return record->surface;
 }
 
 OneWay one_way_of(const World& world, BodyHandle body) {

@@ -1,9 +1,8 @@
 // The commands that make and drive vehicles.
 
-#include <algorithm>
-
 #include "core/world/commands/command_executor.h"
 #include "core/world/commands/rule_changes.h"
+#include "core/world/data/sorted_table.h"
 #include "core/world/phases/vehicle/vehicle_phase.h"
 #include "core/world/phases/vehicle/wheel.h"
 #include "core/world/world_impl.h"
@@ -33,17 +32,9 @@ Status CommandExecutor::execute(const SetVehicle& command) {
     return Status::ok;
   }
   if (!world_.bodies[body].is_dynamic() || !is_valid(*command.def)) return Status::invalid_argument;
-  if (!can_be_chassis(world_, body)) return Status::capacity_exhausted;
+  if (!set_record(world_.vehicles, world_.header.vehicle_count, record_of(body, *command.def)))
+    return Status::capacity_exhausted;
   world_.waking.wake(body);
-  const auto begin = world_.vehicles.begin(), end = begin + world_.header.vehicle_count;
-  const auto at = std::lower_bound(
-      begin, end, body,
-      [](const VehicleRecord& vehicle, std::uint32_t wanted) { return vehicle.chassis < wanted; });
-  if (at == end || at->chassis != body) {
-    std::copy_backward(at, end, end + 1);
-    ++world_.header.vehicle_count;
-  }
-  *at = record_of(body, *command.def);
   world_.vehicle_phase = linked_vehicle_phase;
   return Status::ok;
 }

@@ -10,6 +10,7 @@
 #include "core/dynamics/state/limits.h"
 #include "core/math/roots.h"
 #include "core/math/rotation_log.h"
+#include "core/math/rounded_dot.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/phases/immersion.h"
 
@@ -19,7 +20,7 @@ namespace {
 constexpr std::int64_t k_unit_32 = std::int64_t{1} << 32;
 
 std::int64_t product_q32(std::int64_t a, std::int64_t b) {
-  return multiply_shift(a, b, 32);
+  return saturated_product(a, b, 32);
 }
 
 // x / (1 + x) of x ≥ 0, 32 bits both.
@@ -99,9 +100,7 @@ class FluidPush {
     const Vec3<Velocity> weight{in_tick(world_.header.gravity.x), in_tick(world_.header.gravity.y),
                                 in_tick(world_.header.gravity.z)};
     const Vec3<Unit> up = to_matrix(fluid_.orientation).y;
-    std::int64_t along = 0;
-    for (int i = 0; i < 3; ++i)
-      along += raw::multiply_shift(weight[i].raw, up[i].raw, Unit::frac_bits);
+    const std::int64_t along = rounded_dot(weight, up);
     const std::int64_t sinking = world_.time_step.tick.times(std::abs(along)) / 4;
     const std::int64_t kept = k_unit_32 - braked_part(product_q32(in_.per_metre, sinking));
     lift_ = times(weight, -kept);

@@ -332,7 +332,7 @@ void push(World& world, BodyHandle handle, const BodyView& body, const Vec3<Posi
 
 /// Of two numbers of 32 fraction bits, with as many.
 std::int64_t product(std::int64_t a, std::int64_t b) {
-  return multiply_shift(a, b, 32);
+  return saturated_product(a, b, 32);
 }
 
 /// Whether a point of a body moves along gravity faster than a tick of free fall makes it.

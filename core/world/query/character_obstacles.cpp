@@ -5,6 +5,7 @@
 
 #include "core/dynamics/state/one_way_bits.h"
 #include "core/math/roots.h"
+#include "core/math/rounded_dot.h"
 
 namespace lockstone {
 namespace {
@@ -56,10 +57,7 @@ bool CharacterObstacles::stops(const ShapeContact& contact) const {
 
 // A lift comes up to its riders by its way in a tick.
 Length CharacterObstacles::depth_allowed(BodyHandle body, const Vec3<Unit>& normal) const {
-  const Vec3<Velocity> velocity = world_.velocity(body);
-  std::int64_t speed = 0;
-  for (int i = 0; i < 3; ++i)
-    speed += raw::multiply_shift(velocity[i].raw, normal[i].raw, Unit::frac_bits);
+  const std::int64_t speed = rounded_dot(world_.velocity(body), normal);
   const std::int64_t way = raw::round_divide(speed, std::int64_t{world_.def().tick_rate});
   return def_.skin + max(saturated<Length>(Position::from_raw(way)), Length{});
 }

@@ -150,13 +150,12 @@ Status validate(const FluidRecord& record) {
 Status validate(const PairRuleRecord& record) {
   const bool has_flags = record.flags != 0 && (record.flags & ~k_all_pair_rule_flags) == 0;
   const bool fits =
-      record.has_surface() ? is_valid(record.surface()) : record.surface() == PairSurface{};
+      record.has_surface() ? is_valid(record.surface) : record.surface == PairSurface{};
   return record.body_a < record.body_b && has_flags && fits ? Status::ok : Status::malformed;
 }
 
 Status validate(const SurfaceRuleRecord& record) {
-  return record.tag_a <= record.tag_b && is_valid(record.surface()) ? Status::ok
-                                                                    : Status::malformed;
+  return record.tag_a <= record.tag_b && is_valid(record.surface) ? Status::ok : Status::malformed;
 }
 
 // Its settings and controls are those that a definition makes.

@@ -91,16 +91,9 @@ bool NarrowPhase::meet(const Pair& pair) {
   WorldData& world = data_.world;
   const BodyRecord &a = world.bodies[pair.a], &b = world.bodies[pair.b];
   if (a.is_trigger() || b.is_trigger() || are_ignored(world, pair.a, pair.b)) return false;
-  if (is_found_at_recycling_poses(world, pair)) {
-    const Shape shape_a = a.shape(), shape_b = b.shape();
-    return collide({shape_a, world.cache.recycling_rotations()[pair.a]},
-                   {shape_b, world.cache.recycling_rotations()[pair.b]}, recycling_offset(a, b),
-                   margin_of(pair))
-               .count > 0;
-  }
-  collide_bodies(world.placed(pair.a), world.placed(pair.b), margin_of(pair),
-                 scratch().triangles.get(), scratch().part_contacts);
-  return scratch().part_contacts.count > 0;
+  PartContacts& parts = scratch().part_contacts;
+  PairCollider(data_, scratch()).collide_all_parts(pair, parts);
+  return parts.count > 0;
 }
 
 bool NarrowPhase::are_passing(std::uint32_t a, std::uint32_t b) const {

@@ -6,6 +6,7 @@
 
 #include "core/collision/continuous/first_impact.h"
 #include "core/geometry/convex/shape_properties.h"
+#include "core/math/rounded_dot.h"
 #include "core/world/derived/quantities.h"
 
 namespace lockstone {
@@ -46,11 +47,7 @@ bool holds(const WorldData& world, std::uint32_t body, const Mat3& rotation,
 // Whether a motion against a one-way body goes with its front, or along it.
 bool goes_with_front(const WorldData& world, std::uint32_t body, const Mat3& rotation,
                      const Vec3<Position>& motion) {
-  const Vec3<Unit> front = front_of(world, body, rotation);
-  std::int64_t along = 0;
-  for (int i = 0; i < 3; ++i)
-    along += raw::multiply_shift(motion[i].raw, front[i].raw, Unit::frac_bits);
-  return along >= 0;
+  return rounded_dot(motion, front_of(world, body, rotation)) >= 0;
 }
 
 }  // namespace

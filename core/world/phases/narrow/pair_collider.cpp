@@ -88,7 +88,6 @@ void PairCollider::collide_one_way(std::uint32_t index, std::span<const ContactR
   data_.found.surfaces[id] = {};
 }
 
-// Where the pair is, or at its recycling poses.
 void PairCollider::collide_all_parts(const Pair& pair, PartContacts& parts) const {
   const Length margin = margin_of(world_, pair);
   const BodyRecord &a = world_.bodies[pair.a], &b = world_.bodies[pair.b];

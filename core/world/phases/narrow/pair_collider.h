@@ -20,6 +20,8 @@ class PairCollider {
   /// zero.
   void collide(std::uint32_t index, std::span<const ContactRecord> before,
                const Vec3<Unit>& last_axis);
+  /// All contacts of two bodies, as they are or at their recycling poses; nothing is remembered.
+  void collide_all_parts(const Pair& pair, PartContacts& parts) const;
   void finish() {
     if (scratch_.boxes.batch.size() > 0) collide_waiting();
   }
@@ -34,7 +36,6 @@ class PairCollider {
                           const Vec3<Unit>& last_axis, PairTimer& timer);
   void collide_one_way(std::uint32_t index, std::span<const ContactRecord> before,
                        PairTimer& timer);
-  void collide_all_parts(const Pair& pair, PartContacts& parts) const;
   int collide_alone(std::uint32_t index, const ManifoldInput& input,
                     std::span<const ContactRecord> before);
   void collide_waiting();

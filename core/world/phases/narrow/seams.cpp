@@ -193,8 +193,7 @@ bool SeamSearch::is_covered(const SeamContact& contact, const TouchedPoint& at) 
     const Asset* asset = world_.cache.asset(other);
     const bool is_own = other == contact.other;
     if (is_own && asset != nullptr && asset->mesh_kernels() != nullptr) continue;
-    if (!world_.joint_graph.exempt_pairs().empty() && world_.are_joined(body_, other)) continue;
-    if (are_ignored(world_, body_, other) || is_passing(i)) continue;
+    if (world_.are_exempt(body_, other) || is_passing(i)) continue;
     const std::uint32_t except = is_own ? part_of(contact) : k_no_part;
     if (covers(world_.placed(other), except, at, world_.bodies[body_].position)) return true;
   }

@@ -120,12 +120,6 @@ Real3 heading_of(const VehicleRecord& vehicle, std::size_t wheel) {
   return unit(ahead < Real{} ? heading * -k_real_one : heading);
 }
 
-Vec3<Length> highest_centre(const AxleRecord& axle, std::size_t wheel) {
-  Vec3<Length> centre = axle.mount;
-  centre.z += wheel % 2 == 0 ? -axle.half_track : axle.half_track;
-  return centre;
-}
-
 WheelContact find_ground(const WorldData& world, const VehicleRecord& vehicle,
                          const Chassis& chassis, std::size_t wheel, WheelRecord& record) {
   const AxleRecord& axle = vehicle.axles[wheel / 2];

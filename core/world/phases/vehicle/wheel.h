@@ -39,9 +39,6 @@ struct WheelContact {
 /// In the axes of the chassis, the direction in which a wheel rolls ahead.
 [[nodiscard]] Real3 heading_of(const VehicleRecord& vehicle, std::size_t wheel);
 
-/// The place of a wheel's centre in the chassis where it is highest.
-[[nodiscard]] Vec3<Length> highest_centre(const AxleRecord& axle, std::size_t wheel);
-
 /// Finds the ground, and sets the wheel's compression.
 [[nodiscard]] WheelContact find_ground(const WorldData& world, const VehicleRecord& vehicle,
                                        const Chassis& chassis, std::size_t wheel,
