@@ -4,30 +4,17 @@
 #include <array>
 #include <cerrno>
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <sys/socket.h>
 #include <unistd.h>
+
+#include "tools/relay/system_address.h"
 
 namespace lockstone::relay {
 namespace {
 
 constexpr std::size_t k_max_waiting_segments = 4096;
 constexpr int k_backlog = 64;
-
-sockaddr_in tcp_address(const Endpoint& endpoint) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(endpoint.port);
-  address.sin_addr.s_addr = htonl(endpoint.address);
-  return address;
-}
-
-const sockaddr* as_any(const sockaddr_in& address) {
-  return reinterpret_cast<const sockaddr*>(&address);
-}
 
 void make_prompt(int socket) {
   const int on = 1;
@@ -40,13 +27,12 @@ void make_prompt(int socket) {
 Result<std::unique_ptr<TcpRelay>> TcpRelay::open(const Endpoint& local, const Endpoint& server,
                                                  const SegmentFaults& faults, std::uint64_t seed) {
   const int listener = ::socket(AF_INET, SOCK_STREAM, 0);
-  const sockaddr_in address = tcp_address(local);
+  const sockaddr_in address = to_system(local);
   const int on = 1;
   const bool ok = listener >= 0 &&
                   ::setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
-                  ::bind(listener, as_any(address), sizeof address) == 0 &&
-                  ::listen(listener, k_backlog) == 0 &&
-                  ::fcntl(listener, F_SETFL, O_NONBLOCK) == 0;
+                  ::bind(listener, generic(address), sizeof address) == 0 &&
+                  ::listen(listener, k_backlog) == 0 && ::fcntl(listener, F_SETFL, O_NONBLOCK) == 0;
   if (ok) return std::unique_ptr<TcpRelay>(new TcpRelay(listener, server, faults, seed));
   if (listener >= 0) ::close(listener);
   return Status::io_error;
@@ -61,8 +47,8 @@ TcpRelay::~TcpRelay() {
 std::uint16_t TcpRelay::port() const {
   sockaddr_in address{};
   socklen_t bytes = sizeof address;
-  ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &bytes);
-  return ntohs(address.sin_port);
+  ::getsockname(listener_, generic(address), &bytes);
+  return from_system(address).port;
 }
 
 void TcpRelay::pump(std::int64_t now_us) {
@@ -79,9 +65,9 @@ void TcpRelay::accept_callers() {
     const int caller = ::accept(listener_, nullptr, nullptr);
     if (caller < 0) return;
     const int called = ::socket(AF_INET, SOCK_STREAM, 0);
-    const sockaddr_in address = tcp_address(server_);
+    const sockaddr_in address = to_system(server_);
     const bool ok = ways_.size() < 2 * k_max_connections && called >= 0 &&
-                    ::connect(called, as_any(address), sizeof address) == 0;
+                    ::connect(called, generic(address), sizeof address) == 0;
     if (!ok) {
       ::close(caller);
       if (called >= 0) ::close(called);
@@ -101,7 +87,8 @@ void TcpRelay::take(Way& way, std::int64_t now_us) {
     const ssize_t size = ::recv(way.from, buffer.data(), buffer.size(), 0);
     if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
     way.ended = size <= 0;
-    enqueue(way, ByteView(buffer).first(static_cast<std::size_t>(std::max<ssize_t>(size, 0))), now_us);
+    enqueue(way, ByteView(buffer).first(static_cast<std::size_t>(std::max<ssize_t>(size, 0))),
+            now_us);
   }
 }
 

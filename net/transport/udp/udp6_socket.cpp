@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "net/transport/udp/system_sockets.h"
+#include "net/transport/udp/system_address.h"
 
 namespace lockstone::net {
 namespace {
@@ -16,14 +16,6 @@ sockaddr_in6 to_system(const DatagramSource& source) {
   address.sin6_scope_id = source.scope;
   std::memcpy(&address.sin6_addr, source.address.data(), source.address.size());
   return address;
-}
-
-DatagramSource from_system(const sockaddr_in6& address) {
-  DatagramSource source;
-  std::memcpy(source.address.data(), &address.sin6_addr, source.address.size());
-  source.scope = address.sin6_scope_id;
-  source.port = ntohs(address.sin6_port);
-  return source;
 }
 
 const sockaddr* generic(const sockaddr_in6& address) {

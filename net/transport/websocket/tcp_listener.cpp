@@ -11,6 +11,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "net/transport/udp/system_address.h"
+
 namespace lockstone::net {
 namespace {
 
@@ -18,22 +20,16 @@ constexpr int k_backlog = 64;
 constexpr int k_unsent_bytes = 16 * 1024;
 
 DatagramSource source_of_caller(const sockaddr_storage& address) {
-  DatagramSource source;
   if (address.ss_family == AF_INET) {
     sockaddr_in ipv4{};
     std::memcpy(&ipv4, &address, sizeof ipv4);
     std::array<std::byte, 4> bytes{};
     std::memcpy(bytes.data(), &ipv4.sin_addr, bytes.size());
-    source.address = map_ipv4(bytes);
-    source.port = ntohs(ipv4.sin_port);
-    return source;
+    return {.address = map_ipv4(bytes), .port = ntohs(ipv4.sin_port)};
   }
   sockaddr_in6 ipv6{};
   std::memcpy(&ipv6, &address, sizeof ipv6);
-  std::memcpy(source.address.data(), &ipv6.sin6_addr, source.address.size());
-  source.scope = ipv6.sin6_scope_id;
-  source.port = ntohs(ipv6.sin6_port);
-  return source;
+  return from_system(ipv6);
 }
 
 bool prepare(int socket, const addrinfo& where) {

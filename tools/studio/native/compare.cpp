@@ -1,6 +1,7 @@
 // Two worlds beside each other, body by body.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace {
 using namespace lockstone;
 using namespace lockstone::c;
 
-constexpr double k_degrees = 180 / 3.14159265358979323846;
+constexpr double k_degrees = 180 / std::numbers::pi;
 
 template <class T>
 float gap_between(const Vec3<T>& a, const Vec3<T>& b) {
