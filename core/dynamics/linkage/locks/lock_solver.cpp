@@ -207,6 +207,7 @@ void LockSolver::lock_roughly(const JointRun& run, const JointCluster& cluster, 
   group.is_factored = group.is_fresh = false;
   set_speed_errors(run, group, false);
   solve(run, group, true);
+  limit_projection(run, system_, cluster);
   save(run, group);
   close_a_quarter(run, group);
   limit_closing(run, system_, cluster);

@@ -99,6 +99,27 @@ void go_part(const JointRun& run, const JointSystem& system, const JointCluster&
   }
 }
 
+namespace {
+
+void keep_part(const JointRun& run, JointSystem& system, const JointCluster& cluster,
+               std::int32_t share) {
+  go_part(run, system, cluster, &LinkedBody::saved_row, share);
+  for (LinkedJoint& joint : system.joints_of(cluster)) {
+    for (std::size_t i = 0; i < k_joint_axes; ++i) {
+      const std::int64_t change = bounded(joint.locks[i] - joint.saved[i], k_product_bound);
+      joint.locks[i] = joint.saved[i] + product_rounded(change, share, k_share_bits);
+    }
+  }
+}
+
+}  // namespace
+
+void limit_projection(const JointRun& run, JointSystem& system, const JointCluster& cluster) {
+  const EnergyPath path = energy_path(run, system, cluster, &LinkedBody::saved_row);
+  if (path.gain() <= 0) return;
+  keep_part(run, system, cluster, share_of(-(path.linear / 2), path.square));
+}
+
 bool closes_too_fast(const JointRun& run, const JointSystem& system, const JointCluster& cluster) {
   const EnergyPath path = energy_path(run, system, cluster, &LinkedBody::saved_row);
   return path.gain() > path.first / 16 + k_closing_energy;
@@ -108,14 +129,7 @@ void limit_closing(const JointRun& run, JointSystem& system, const JointCluster&
   const EnergyPath path = energy_path(run, system, cluster, &LinkedBody::saved_row);
   if (path.gain() <= k_closing_energy) return;
   const std::int32_t share = greatest_share(path.square, path.linear, k_closing_energy);
-  LKS_ASSERT(share >= 0 && share <= 1 << k_share_bits);
-  go_part(run, system, cluster, &LinkedBody::saved_row, share);
-  for (LinkedJoint& joint : system.joints_of(cluster)) {
-    for (std::size_t i = 0; i < k_joint_axes; ++i) {
-      const std::int64_t closing = bounded(joint.locks[i] - joint.saved[i], k_product_bound);
-      joint.locks[i] = joint.saved[i] + product_rounded(closing, share, k_share_bits);
-    }
-  }
+  keep_part(run, system, cluster, share);
 }
 
 }  // namespace lockstone

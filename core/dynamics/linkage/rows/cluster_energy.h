@@ -63,6 +63,10 @@ void go_part(const JointRun& run, const JointSystem& system, const JointCluster&
 [[nodiscard]] bool closes_too_fast(const JointRun& run, const JointSystem& system,
                                    const JointCluster& cluster);
 
+/// After a projection, which cannot gain energy but for rounding: goes along it, from `saved_row`,
+/// only as far as energy falls. Where locks cannot hold together, rounding may be all there is.
+void limit_projection(const JointRun& run, JointSystem& system, const JointCluster& cluster);
+
 /// Leaves as much of their difference to those before as the energy to close locks allows.
 void limit_closing(const JointRun& run, JointSystem& system, const JointCluster& cluster);
 
