@@ -15,13 +15,12 @@ StepReport World::Impl::step(PairFilter* only) {
   find_pairs(report, only);
   if (header.fluid_limit != 0) fluid_phase->push(*this);
   narrow.run(pairs, report);
-  bounces.find();
-  pendulums.find();
+  left_out.find();
   solve_contacts(report);
   mover.run(report);
   if (header.fluid_limit != 0) fluid_phase->end(*this);
   continuous.run(report);
-  mover.renew_recycling_poses();
+  mover.end();
   refresh_moved();
   find_events();
   joint_registry.mark_awake();
@@ -61,7 +60,7 @@ bool World::Impl::wake_met() {
 
 // The new records hold each contact's final impulses, and whether the surfaces met.
 void World::Impl::solve_contacts(StepReport& report) {
-  const std::span<const JointLink> links = pendulums.joints_to_solve();
+  const std::span<const JointLink> links = left_out.pendulums.joints_to_solve();
   events.hits().begin();
   {
     const StageTimer timer(profiler, StepStage::prepare);
@@ -82,8 +81,11 @@ void World::Impl::solve_contacts(StepReport& report) {
     events.hits().add_solved(solver.totals());
   }
   const SolverCounts counts = solver.counts();
-  report.contacts = counts.contacts + static_cast<std::uint32_t>(bounces.contacts().size());
-  report.contact_points = counts.points;
+  const Bounces& bounces = left_out.bounces;
+  report.still_contacts = left_out.still.contacts();
+  report.contacts = counts.contacts + static_cast<std::uint32_t>(bounces.contacts().size()) +
+                    report.still_contacts;
+  report.contact_points = counts.points + left_out.still.points();
   for (const BouncingContact& each : bounces.contacts())
     report.contact_points += static_cast<std::uint32_t>(found.manifold_of(each.contact).count);
   report.colors = counts.colors;
@@ -100,7 +102,7 @@ void World::Impl::refresh_moved() {
 // Makes the contacts of the tick those of the state; manifolds have other ids from then on.
 void World::Impl::find_events() {
   const StageTimer timer(profiler, StepStage::events);
-  events.hits().add_bounced(bounces.contacts(), bounces.totals());
+  events.hits().add_bounced(left_out.bounces.contacts(), left_out.bounces.totals());
   events.find();
   passes.add_events(events.list());
   const Stops& stops = continuous.stops();

@@ -15,11 +15,10 @@
 #include "core/world/derived/body_names.h"
 #include "core/world/phases/contact_events.h"
 #include "core/world/phases/motion/body_mover.h"
-#include "core/world/phases/motion/bounces.h"
 #include "core/world/phases/motion/continuous.h"
+#include "core/world/phases/motion/left_out.h"
 #include "core/world/phases/motion/moved_bodies.h"
 #include "core/world/phases/motion/passes.h"
-#include "core/world/phases/motion/pendulums.h"
 #include "core/world/phases/narrow/narrow_phase.h"
 #include "core/world/phases/tick_contacts.h"
 #include "core/world/sleep/island_sleep.h"
@@ -60,8 +59,7 @@ struct World::Impl : WorldData {
   // The phases of a tick, in their order.
   NarrowPhase narrow;
   MovedBodies moved;
-  Bounces bounces;
-  Pendulums pendulums;
+  LeftOut left_out;
   ContactSolver solver;
   ContinuousCollision continuous;
   TriggerPasses passes;

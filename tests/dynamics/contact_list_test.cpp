@@ -48,13 +48,13 @@ TEST(ContactList, GivesABodyThatStandsStillARowInEachContact) {
   EXPECT_EQ(scene.bodies.row_count(), 4U);
 }
 
-TEST(ContactList, LeavesOutTriggersAndBouncesAndKeepsTheOrderOfTheRest) {
+TEST(ContactList, LeavesOutTriggersAndTakenContactsAndKeepsTheOrderOfTheRest) {
   TickScene scene;
   const std::uint32_t ground = scene.add_body(k_static), box = scene.add_body(k_dynamic);
   for (int i = 0; i < 4; ++i)
     scene.add_contact(ground, box);
   scene.add_contact(ground, box).flags = k_contact_trigger;
-  scene.surface(1).bounces = true;
+  scene.surface(1).is_left_out = true;
   scene.gather();
   ASSERT_EQ(scene.contacts.size(), 3U);
   EXPECT_EQ(scene.contacts[{0}].record, 0U);

@@ -39,7 +39,8 @@ bool is_turned_little(const BodyRecord& body, std::int64_t distance) {
 
 RestRules RestRules::of(std::uint32_t tick_rate, std::uint32_t milliseconds, Length distance) {
   const std::uint32_t ticks = (tick_rate * milliseconds + 999) / 1000;
-  return {ticks, distance};
+  LKS_ASSERT(ticks <= 0xffff);
+  return {static_cast<std::uint16_t>(ticks), distance};
 }
 
 Velocity RestRules::brake(std::uint32_t tick_rate) const {

@@ -9,6 +9,7 @@
 // others awake which rest is braked, as weakly as a slope that would not keep it from resting.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/dynamics/state/body_record.h"
@@ -17,11 +18,13 @@ namespace lockstone {
 
 /// A world's conditions for rest.
 struct RestRules {
-  std::uint32_t ticks = 0;  ///< so long, then a body is ready to sleep; 0: never
+  std::uint16_t ticks = 0;  ///< so long, then a body is ready to sleep; 0: never
   Length distance{};        ///< (0, 1 m]
 
   /// So long a body must rest that is still pushed out of another.
-  [[nodiscard]] std::uint32_t long_ticks() const { return 8 * ticks; }
+  [[nodiscard]] std::uint16_t long_ticks() const {
+    return static_cast<std::uint16_t>(std::min(8 * ticks, 0xffff));
+  }
 
   /// A body at rest that gains more than this in each tick does not stay at rest: 2·distance /
   /// ticks² a tick.

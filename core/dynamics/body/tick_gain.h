@@ -64,7 +64,7 @@ inline void add_gain(BodyRecord& body, const TickGain& gain) {
   LKS_ASSERT(exponent >= 0 && exponent <= k_most_gain_exponent);
   body.union_c.raw = exponent | write_gain(sum.spin, body.union_b) << k_gain_exponent_bits;
   body.flags = static_cast<std::uint8_t>(body.flags | k_body_pushed);
-  body.rest_ticks = 0;
+  body.rest_ticks = body.still_ticks = 0;
 }
 
 }  // namespace lockstone

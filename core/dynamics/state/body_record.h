@@ -77,7 +77,8 @@ struct BodyRecord {
   std::int8_t scale_exponent = 0;
   std::int8_t inverse_mass_exponent = 0;
   std::uint8_t locks = 0;        // BodyLock
-  std::uint32_t rest_ticks = 0;  // since it rests
+  std::uint16_t rest_ticks = 0;   // since it rests
+  std::uint16_t still_ticks = 0;  // StillRules: since its island moved
   SolverVelocity hit_speed{};    // EventSettings::hit_speed
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
@@ -178,7 +179,7 @@ struct BodyRecord {
   X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) \
   X(friction) X(restitution) X(rolling_resistance) X(tag) X(category) X(mask) X(group) \
   X(generation) X(rules) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
-  X(inverse_mass_exponent) X(locks) X(rest_ticks) X(hit_speed)
+  X(inverse_mass_exponent) X(locks) X(rest_ticks) X(still_ticks) X(hit_speed)
 // clang-format on
 
 template <class F>

@@ -17,7 +17,7 @@ struct ContactSurface {
   Vec3<SolverVelocity> drive{};  ///< of B's surface against A's, at the centre of the points
   Rate twist_drive{};            ///< the same about the normal
   Vec3<SolverVelocity> arc{};    ///< the gain in a substep of the drive, which is a tick's mean
-  bool bounces = false;          ///< within the tick, before the solver
+  bool is_left_out = false;      ///< of the solver: it bounces within the tick, or stands still
   std::uint32_t tag_a = 0;
   std::uint32_t tag_b = 0;
 };

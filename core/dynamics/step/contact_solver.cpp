@@ -239,14 +239,15 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
 }
 
 bool ContactSolver::keeps_recycling_pose(std::uint32_t body, const BodyRecord& record) const {
-  const IslandTally* island = islands_.find(bodies_, body);
+  const IslandTally* island = island_of(body);
   if (island == nullptr || island->is_converged) return false;
   return is_near_recycling_pose(record, island->is_stack() ? k_fine_delta : k_coarse_delta);
 }
 
-bool ContactSolver::is_loose(std::uint32_t body) const {
-  const IslandTally* island = islands_.find(bodies_, body);
-  return island != nullptr && island->is_loose;
+void ContactSolver::note_moved(std::uint32_t body) {
+  const std::uint32_t number = bodies_.number_of(body);
+  const std::uint32_t island = number == 0 ? 0 : islands_.of(BodyRef::numbered(number));
+  if (island != 0) islands_.tally(island).moved.raise();
 }
 
 EnergyLimit::Bodies ContactSolver::energy_bodies() {

@@ -95,8 +95,12 @@ class ContactSolver {
   /// it has not moved far.
   [[nodiscard]] bool keeps_recycling_pose(std::uint32_t body, const BodyRecord& record) const;
 
-  /// Whether the body is of a loose pile.
-  [[nodiscard]] bool is_loose(std::uint32_t body) const;
+  /// A body of an island has another pose than at the tick's beginning. From any thread.
+  void note_moved(std::uint32_t body);
+  /// The counts of a body's island; null of a body that is in none.
+  [[nodiscard]] const IslandTally* island_of(std::uint32_t body) const {
+    return islands_.find(bodies_, body);
+  }
 
   [[nodiscard]] SolverCounts counts() const;
   /// Lists the places of converged islands in their pools.

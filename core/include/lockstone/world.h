@@ -34,7 +34,7 @@ namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
 /// or a log. History: docs/explanation/determinism.md.
-inline constexpr std::uint32_t k_simulation_abi = 58;
+inline constexpr std::uint32_t k_simulation_abi = 59;
 
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {
@@ -66,7 +66,7 @@ struct WorldDef {
 /// recalls islands, `status` and `asleep_bodies` still are.
 struct StepReport {
   Status status = Status::ok;       ///< capacity_exhausted: pairs were left out, alike everywhere
-  std::uint32_t moving_bodies = 0;  ///< awake, dynamic or kinematic
+  std::uint32_t moving_bodies = 0;  ///< awake, dynamic or kinematic; without still ones
   std::uint32_t asleep_bodies = 0;  ///< at the end of the step; kinematic ones that stand included
   std::uint32_t islands = 0;      ///< that were looked at, because a body of one was ready to sleep
   std::uint32_t free_bodies = 0;  ///< took the exact ballistic path, no solver
@@ -84,6 +84,8 @@ struct StepReport {
   std::uint32_t computed_islands = 0;   ///< by a RollbackHistory alone: groups of bodies that could
                                         ///< reach each other and were stepped
   std::uint32_t recalled_islands = 0;   ///< and those whose results came from memory
+  std::uint32_t still_bodies = 0;       ///< awake, of islands that stand still and are not solved
+  std::uint32_t still_contacts = 0;     ///< and the contacts of these islands
 
   friend bool operator==(const StepReport&, const StepReport&) = default;
 };

@@ -47,7 +47,7 @@ struct VehiclePhase;
 /// The rest of a body that fluids push in the tick, which the push takes the place of.
 struct SavedRest {
   std::uint32_t body = 0;
-  std::uint32_t ticks = 0;
+  std::uint16_t ticks = 0;
   Vec3<Unit> union_a{};
   Vec3<Unit> union_b{};
   Unit union_c{};

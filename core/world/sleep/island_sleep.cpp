@@ -70,6 +70,7 @@ bool IslandSleep::watch_bodies() {
   for (const std::uint32_t body : world_.awake.list()) {
     BodyRecord& record = world_.bodies[body];
     if (is_watched(record, rules)) {
+      world_.hashes.bodies.mark(body);
       ready |= count_rest(record, rules);
     } else if (!record.is_dynamic() && record.may_sleep()) {
       if (record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{})

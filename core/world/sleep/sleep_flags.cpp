@@ -40,6 +40,7 @@ void SleepFlags::set_asleep(std::uint32_t body) {
   LKS_ASSERT(record.moves() && !record.is_asleep());
   record.flags = static_cast<std::uint8_t>((record.flags | k_body_asleep) & ~k_body_pushed);
   record.velocity = record.spin = {};
+  record.still_ticks = 0;
   begin_rest(record, rest_rules_);
   world_.awake.erase(body);
   ++asleep_count_;

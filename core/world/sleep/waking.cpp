@@ -11,7 +11,26 @@ Waking::Waking(WorldData& world, SleepFlags& flags, TickContacts& found)
   to_wake_.reserve(std::size_t{1 + k_max_impacts} * world.def.body_capacity);
 }
 
+// Its island is solved again.
+void Waking::stir(std::uint32_t body) {
+  if (world_.bodies[body].still_ticks == 0) return;
+  world_.bodies[body].still_ticks = 0;
+  world_.hashes.bodies.mark(body);
+}
+
+// All that may touch the body, or are joined to it.
+void Waking::stir_around(std::uint32_t body) {
+  for (const std::uint32_t other : world_.joint_graph.neighbours(body))
+    stir(other);
+  if (!world_.broad_phase.has(body)) return;
+  const Bounds here = world_.broad_phase.bounds(body);
+  world_.broad_phase.traverse(
+      k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },
+      [&](std::uint32_t other) { stir(other); });
+}
+
 void Waking::list(std::uint32_t body) {
+  stir(body);
   if (!world_.bodies[body].is_asleep()) return;
   flags_.set_awake(body);
   to_wake_.push_back(body);
@@ -54,7 +73,6 @@ void Waking::wake_ends(const JointRecord& joint) {
 }
 
 void Waking::wake_all() {
-  if (flags_.asleep_count() == 0) return;
   for (std::uint32_t body = 0; body < world_.header.body_limit; ++body)
     list(body);
   wake_listed();
@@ -73,6 +91,7 @@ void Waking::wake_joined() {
 }
 
 void Waking::disturb(std::uint32_t body) {
+  stir_around(body);
   if (flags_.asleep_count() == 0) return;
   if (world_.bodies[body].moves()) {
     wake(body);
@@ -88,6 +107,7 @@ void Waking::disturb(std::uint32_t body) {
 
 // A body that moves is awake by now and finds the others by itself.
 void Waking::disturb_around(std::uint32_t body) {
+  stir_around(body);
   if (flags_.asleep_count() == 0 || world_.bodies[body].moves()) return;
   if (!world_.broad_phase.has(body)) return;
   const Bounds here = world_.broad_phase.bounds(body);

@@ -19,7 +19,8 @@ class Waking {
   /// wake only where the contacts of a tick are not in use.
   Waking(WorldData& world, SleepFlags& flags, TickContacts& found);
 
-  /// Wakes the body, which sleeps or not, and everything connected to it.
+  /// Wakes the body, which sleeps or not, and everything connected to it. Here and below a body that
+  /// is awake begins to count its still ticks again.
   void wake(std::uint32_t body);
   void wake_ends(const JointRecord& joint);
   void wake_all();
@@ -39,6 +40,8 @@ class Waking {
   bool wake_listed();
 
  private:
+  void stir(std::uint32_t body);
+  void stir_around(std::uint32_t body);
   void spread_from(std::uint32_t body);
 
   WorldData& world_;

@@ -60,6 +60,7 @@ bool has_valid_notes(const BodyRecord& record) {
   if (!record.is_pushed()) return true;
   const TickGain gain = tick_gain_of(record);
   return !record.is_asleep() && is_enabled(record) && record.rest_ticks == 0 &&
+         record.still_ticks == 0 &&
          record.union_c.raw >> k_exponent_bits == 0 && is_within(gain.velocity, k_most_gain) &&
          is_within(gain.spin, k_most_gain);
 }
@@ -85,6 +86,7 @@ bool has_valid_sleep(const BodyRecord& record) {
   const bool watched = record.is_dynamic() && record.may_sleep() && !record.is_asleep();
   if (!watched && !has_zero_rest(record)) return false;
   if (record.has_changed_sleep() && !record.is_dynamic()) return false;
+  if (record.still_ticks != 0 && (!record.is_dynamic() || !record.is_awake())) return false;
   if (!record.moves() || !is_enabled(record)) return !record.is_asleep();
   const bool still = record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{};
   return !record.is_asleep() || (still && record.may_sleep());

@@ -149,7 +149,8 @@ void measure_absent_features(Skips& skips) {
   for (int tick = 0; tick < 60; ++tick) {
     const StepReport report = world.step();
     // Every joint of an awake body is hashed again.
-    joints += std::max(std::int64_t{world.hash().hashed} - report.moving_bodies - report.pairs - 1,
+    joints += std::max(std::int64_t{world.hash().hashed} - report.moving_bodies -
+                           report.still_bodies - report.pairs - 1,
                        std::int64_t{0});
     sum.continuous_bodies += report.continuous_bodies;
     sum.impacts += report.impacts;

@@ -97,6 +97,8 @@ lks_step_report raw_report(const StepReport& report) {
   raw.energy_limits = report.energy_limits;
   raw.computed_islands = report.computed_islands;
   raw.recalled_islands = report.recalled_islands;
+  raw.still_bodies = report.still_bodies;
+  raw.still_contacts = report.still_contacts;
   return raw;
 }
 

@@ -38,7 +38,7 @@ export type StepReport = { readonly [name in StepCount]: number };
 type StepCount =
   | "status" | "movingBodies" | "asleepBodies" | "islands" | "freeBodies" | "axisTurns" | "pairs" | "contacts"
   | "contactPoints" | "colors" | "overflowContacts" | "continuousBodies" | "impacts" | "saturations" | "energyLimits"
-  | "computedIslands" | "recalledIslands";
+  | "computedIslands" | "recalledIslands" | "stillBodies" | "stillContacts";
 
 function camel(name: string): string {
   return name.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());

@@ -27,7 +27,7 @@ void ContactList::find_sides(const ContactScene& scene, std::int64_t bearing_imp
     LKS_ASSERT(record.is_inert() || scene.manifold_ids[i] < scene.manifolds.size());
     LKS_ASSERT(record.count <= record.points.size());
     sides = {};
-    if (record.is_inert() || scene.surfaces[scene.manifold_ids[i]].bounces) continue;
+    if (record.is_inert() || scene.surfaces[scene.manifold_ids[i]].is_left_out) continue;
     const auto side_of = [&](std::uint32_t body) -> BodySide {
       return {body, static_cast<MotionType>(scene.bodies[body].motion)};
     };

@@ -10,9 +10,10 @@ namespace lockstone {
 // Bounces run before all other bodies move, so that their obstacles are where the tick began.
 void BodyMover::run(StepReport& report) {
   const StageTimer timer(world_.profiler, StepStage::move);
-  moved_.list_awake();
+  moved_.list_awake(left_out_.still.bodies());
   report.moving_bodies = static_cast<std::uint32_t>(moved_.bodies().size());
-  bounces_.run();
+  report.still_bodies = static_cast<std::uint32_t>(left_out_.still.bodies().size());
+  left_out_.bounces.run();
   std::atomic<std::uint32_t> free_bodies{0}, axis_turns{0}, saturations{0};
   world_.parallel.for_each(
       moved_.pieces(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
@@ -37,7 +38,7 @@ void BodyMover::run(StepReport& report) {
 void BodyMover::move(std::uint32_t body, Counts& counts) {
   BodyRecord& record = world_.bodies[body];
   const Mat3& rotation = world_.cache.rotation(body);
-  const bool bounced = bounces_.has_moved(body);
+  const bool bounced = left_out_.bounces.has_moved(body);
   if (!bounced) moved_.note_start(body);
   const SolverBody* solved = solver_.find(body);
   if (solved != nullptr) {
@@ -46,8 +47,8 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
   } else if (bounced) {
     damp_velocity(record, world_.time_step);
     ++counts.free_bodies;
-  } else if (pendulums_.has(body)) {
-    counts.axis_turns += pendulums_.run(body);
+  } else if (left_out_.pendulums.has(body)) {
+    counts.axis_turns += left_out_.pendulums.run(body);
     damp_velocity(record, world_.time_step);
     ++counts.free_bodies;
   } else {
@@ -55,7 +56,8 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
         fly(record, rotation, world_.header.gravity, world_.time_step, world_.header.tick);
     ++counts.free_bodies;
   }
-  const bool is_loose = solved != nullptr && solver_.is_loose(body);
+  const IslandTally* island = solver_.island_of(body);
+  const bool is_loose = island != nullptr && island->is_loose;
   record.flags = static_cast<std::uint8_t>(is_loose ? record.flags | k_body_loose
                                                     : record.flags & ~k_body_loose);
   damp_spin(record, world_.time_step);
@@ -64,6 +66,10 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
   counts.saturations += limit_speed(record, inertia, world_.def.speed_limit) ? 1U : 0U;
   counts.saturations += limit_position(record) ? 1U : 0U;
   if (record.is_pushed()) end_pushes(record, rest_rules_);
+  const Transform& start = moved_.start(body);
+  if (solved != nullptr &&
+      (record.position != start.position || record.orientation != start.orientation))
+    solver_.note_moved(body);
 }
 
 // The inverse inertia by which its spin is limited. A body without spin needs none.
@@ -75,12 +81,17 @@ InverseInertia BodyMover::inertia_of(std::uint32_t body, const SolverBody* solve
 
 // Only in islands that iterations solve may a body move away from its recycling pose: the residual
 // motion of converged contacts is finer.
-void BodyMover::renew_recycling_poses() {
+void BodyMover::end() {
   world_.parallel.for_each(
       moved_.pieces(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
-        for (const std::uint32_t body : moved_.bodies().subspan(first, end - first))
-          if (!solver_.keeps_recycling_pose(body, world_.bodies[body]))
-            world_.cache.renew_recycling_pose(body, world_.bodies[body]);
+        for (const std::uint32_t body : moved_.bodies().subspan(first, end - first)) {
+          BodyRecord& record = world_.bodies[body];
+          if (!solver_.keeps_recycling_pose(body, record))
+            world_.cache.renew_recycling_pose(body, record);
+          const IslandTally* island = solver_.island_of(body);
+          const bool is_still = island != nullptr && island->moved.get() == 0;
+          record.still_ticks = is_still ? left_out_.still.count_on(record) : 0;
+        }
       });
 }
 

@@ -9,10 +9,9 @@
 #include "core/dynamics/body/rest.h"
 #include "core/dynamics/step/contact_solver.h"
 #include "core/world/data/world_data.h"
-#include "core/world/phases/motion/bounces.h"
 #include "core/world/phases/motion/continuous.h"
+#include "core/world/phases/motion/left_out.h"
 #include "core/world/phases/motion/moved_bodies.h"
-#include "core/world/phases/motion/pendulums.h"
 
 namespace lockstone {
 
@@ -21,19 +20,19 @@ namespace lockstone {
 class BodyMover {
  public:
   /// All outlive this.
-  BodyMover(WorldData& world, MovedBodies& moved, ContactSolver& solver, Bounces& bounces,
-            Pendulums& pendulums, ContinuousCollision& continuous, const RestRules& rest_rules)
+  BodyMover(WorldData& world, MovedBodies& moved, ContactSolver& solver, LeftOut& left_out,
+            ContinuousCollision& continuous, const RestRules& rest_rules)
       : world_(world),
         moved_(moved),
         solver_(solver),
-        bounces_(bounces),
-        pendulums_(pendulums),
+        left_out_(left_out),
         continuous_(continuous),
         rest_rules_(rest_rules) {}
 
   void run(StepReport& report);
-  /// Gives bodies that left their recycling pose another.
-  void renew_recycling_poses();
+  /// Once continuous collision has moved bodies back: gives those that left their recycling pose
+  /// another, and counts the ticks in which islands stood still.
+  void end();
 
  private:
   struct Counts {
@@ -45,8 +44,7 @@ class BodyMover {
   WorldData& world_;
   MovedBodies& moved_;
   ContactSolver& solver_;
-  Bounces& bounces_;
-  Pendulums& pendulums_;
+  LeftOut& left_out_;
   ContinuousCollision& continuous_;
   const RestRules& rest_rules_;
 };

@@ -185,7 +185,7 @@ void Bounces::mark(std::size_t contact) {
   fresh.part_a = record.part_a;
   fresh.part_b = record.part_b;
   record = fresh;
-  found_.surface_of(contact).bounces = true;
+  found_.surface_of(contact).is_left_out = true;
   contacts_.push_back({root_of(record), static_cast<std::uint32_t>(contact)});
   for (const std::uint32_t body : {record.body_a, record.body_b}) {
     if (!world_.bodies[body].is_dynamic() || has_bounced_[body] != 0) continue;

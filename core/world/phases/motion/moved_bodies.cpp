@@ -12,11 +12,18 @@ MovedBodies::MovedBodies(WorldData& world)
   looks_.reserve(most_looks(world.def));
 }
 
-void MovedBodies::list_awake() {
-  const std::span<const std::uint32_t> all = world_.awake.list();
-  bodies_.assign(all.begin(), all.end());
-  for (const std::uint32_t body : all)
+void MovedBodies::list_awake(std::span<const std::uint32_t> still) {
+  bodies_.clear();
+  for (const std::uint32_t body : world_.awake.list()) {
+    if (!still.empty() && still.front() == body) {
+      still = still.subspan(1);
+      note_start(body);
+      continue;
+    }
+    bodies_.push_back(body);
     world_.hashes.bodies.mark(body);
+  }
+  LKS_ASSERT(still.empty());
 }
 
 Loop MovedBodies::pieces() const {

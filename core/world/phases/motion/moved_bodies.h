@@ -23,8 +23,8 @@ class MovedBodies {
   /// No function but this allocates. `world` outlives this.
   explicit MovedBodies(WorldData& world);
 
-  /// Begins a tick: lists all awake bodies.
-  void list_awake();
+  /// Begins a tick: lists all awake bodies but those that stand still, which are where they were.
+  void list_awake(std::span<const std::uint32_t> still);
   /// Begins another list, body by body, ascending.
   void clear() { bodies_.clear(); }
   void add(std::uint32_t body) { bodies_.push_back(body); }

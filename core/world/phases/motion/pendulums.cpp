@@ -24,6 +24,7 @@ void Pendulums::find() {
   for (const Pendulum& pendulum : pendulums_)
     place_of_[pendulum.body] = 0;
   pendulums_.clear();
+  has_list_ = false;
   for (const JointLink& link : world_.joint_graph.awake_links()) {
     if (world_.bodies[link.body_a].is_static() != world_.bodies[link.body_b].is_static())
       look_for(link);
@@ -38,10 +39,7 @@ void Pendulums::find() {
   std::erase_if(pendulums_, [&](const Pendulum& pendulum) { return touches_[pendulum.body] != 0; });
   for (std::size_t i = 0; i < pendulums_.size(); ++i)
     place_of_[pendulums_[i].body] = static_cast<std::uint32_t>(i + 1);
-  solved_joints_.clear();
-  for (const JointLink& link : world_.joint_graph.awake_links()) {
-    if (place_of_[link.body_a] == 0 && place_of_[link.body_b] == 0) solved_joints_.push_back(link);
-  }
+  keep_joints([this](const JointLink& link) { return !has(link.body_a) && !has(link.body_b); });
 }
 
 void Pendulums::look_for(const JointLink& link) {
@@ -66,8 +64,7 @@ Pivot Pendulums::pivot_of(const Pendulum& pendulum) const {
 
 // The joints that the solver gets.
 std::span<const JointLink> Pendulums::joints_to_solve() const {
-  return pendulums_.empty() ? std::span<const JointLink>(world_.joint_graph.awake_links())
-                            : solved_joints_;
+  return has_list_ ? solved_joints_ : std::span<const JointLink>(world_.joint_graph.awake_links());
 }
 
 // Returns the number of turns about an axis.

@@ -2,6 +2,7 @@
 // integrator moves them (pivot_integrator.h); the solver leaves out their joints.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,6 +27,16 @@ class Pendulums {
 
   /// The joints of all other bodies that are awake: those that the solver gets.
   [[nodiscard]] std::span<const JointLink> joints_to_solve() const;
+  /// Of these, only those for which `test` holds from here on.
+  template <class Test>
+  void keep_joints(Test test) {
+    const std::span<const JointLink> all = joints_to_solve();
+    // In place where the list is this one already: nothing is written before it is read.
+    if (!has_list_) solved_joints_.resize(all.size());
+    const auto kept = std::copy_if(all.begin(), all.end(), solved_joints_.begin(), test);
+    solved_joints_.erase(kept, solved_joints_.end());
+    has_list_ = true;
+  }
 
  private:
   struct Pendulum {
@@ -41,7 +52,8 @@ class Pendulums {
   std::vector<Pendulum> pendulums_;
   std::vector<std::uint32_t> place_of_;   // by body: in `pendulums_`, + 1
   std::vector<std::uint8_t> touches_;     // by body
-  std::vector<JointLink> solved_joints_;  // the others, where there are pendulums
+  std::vector<JointLink> solved_joints_;  // the others, where these are not all
+  bool has_list_ = false;                 // `solved_joints_` is not all
 };
 
 }  // namespace lockstone

@@ -78,6 +78,8 @@ typedef struct lks_step_report {
   uint32_t energy_limits;
   uint32_t computed_islands; /* with a history alone: groups of bodies that were stepped, */
   uint32_t recalled_islands; /* and those whose results came from memory */
+  uint32_t still_bodies;     /* awake, of islands that stand still and are not solved, */
+  uint32_t still_contacts;   /* and the contacts of these islands */
 } lks_step_report;
 
 /* Advances by 1 / tick_rate seconds. `report` may be null; else `report->size` must be set. */

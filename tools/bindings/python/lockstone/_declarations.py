@@ -806,6 +806,8 @@ class lks_step_report(Structure):
         ("energy_limits", c_uint32),
         ("computed_islands", c_uint32),
         ("recalled_islands", c_uint32),
+        ("still_bodies", c_uint32),
+        ("still_contacts", c_uint32),
     ]
 
 

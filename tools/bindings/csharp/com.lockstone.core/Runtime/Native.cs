@@ -647,6 +647,8 @@ namespace Lockstone.Interop
         public uint energy_limits;
         public uint computed_islands;
         public uint recalled_islands;
+        public uint still_bodies;
+        public uint still_contacts;
     }
 
     [StructLayout(LayoutKind.Sequential)]

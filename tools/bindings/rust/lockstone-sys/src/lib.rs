@@ -838,6 +838,8 @@ pub struct lks_step_report {
     pub energy_limits: u32,
     pub computed_islands: u32,
     pub recalled_islands: u32,
+    pub still_bodies: u32,
+    pub still_contacts: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]

@@ -1,0 +1,150 @@
+#include "core/world/phases/motion/still_islands.h"
+
+#include <algorithm>
+
+#include <lockstone/assert.h>
+
+namespace lockstone {
+namespace {
+
+// An eighth of a second, and not so few ticks that chance decides.
+std::uint16_t ticks_of(std::int32_t tick_rate) {
+  return static_cast<std::uint16_t>(std::max(tick_rate / 8, 4));
+}
+
+bool is_moving(const BodyRecord& body) {
+  return body.velocity != Vec3<Velocity>{} || body.spin != Vec3<Velocity>{};
+}
+
+bool has_same_points(const ContactRecord& record, const Manifold& manifold) {
+  if (record.count != manifold.count) return false;
+  for (std::size_t i = 0; i < record.count; ++i)
+    if (record.points[i].feature != manifold.points[i].feature) return false;
+  return true;
+}
+
+}  // namespace
+
+StillIslands::StillIslands(WorldData& world, TickContacts& found, const Bounces& bounces,
+                           Pendulums& pendulums, Islands& islands)
+    : world_(world),
+      found_(found),
+      bounces_(bounces),
+      pendulums_(pendulums),
+      islands_(islands),
+      ticks_(ticks_of(world.time_step.tick_rate)),
+      is_still_(world.def.body_capacity),
+      is_tied_(world.def.body_capacity) {
+  bodies_.reserve(world.def.body_capacity);
+}
+
+void StillIslands::find() {
+  for (const std::uint32_t body : bodies_)
+    is_still_[body] = 0;
+  bodies_.clear();
+  contacts_ = points_ = 0;
+  if (!may_find()) return;
+  islands_.begin(world_.awake.list());
+  look_at_bodies();
+  look_at_contacts();
+  look_at_joints();
+  (void)islands_.settle(world_.awake.list());
+  for (const std::uint32_t body : world_.awake.list())
+    if (is_tied_[body] != 0 && !islands_.is_active(body)) keep(body);
+  if (bodies_.empty()) return;
+  leave_out_contacts();
+  pendulums_.keep_joints(
+      [this](const JointLink& link) { return !has(link.body_a) && !has(link.body_b); });
+}
+
+// Whether any island may be still. From one tick before the last, so that differences of that tick
+// count.
+bool StillIslands::may_find() const {
+  return std::ranges::any_of(world_.awake.list(), [&](std::uint32_t body) {
+    return world_.bodies[body].still_ticks + 1 >= ticks_;
+  });
+}
+
+// A body that was still has no velocity unless something gave it one.
+void StillIslands::look_at_bodies() {
+  for (const std::uint32_t body : world_.awake.list()) {
+    const BodyRecord& record = world_.bodies[body];
+    is_tied_[body] = 0;
+    if (!record.is_dynamic()) continue;
+    const bool was_still = record.still_ticks > ticks_;
+    if (record.still_ticks < ticks_) islands_.mark_active(body);
+    if (record.is_pushed() || bounces_.has_moved(body) || pendulums_.has(body) ||
+        (was_still && is_moving(record)))
+      stir(body);
+  }
+}
+
+void StillIslands::look_at_contacts() {
+  for (std::size_t i = 0; i < found_.records.size(); ++i) {
+    const ContactRecord& record = found_.records[i];
+    if (!record.is_inert()) connect(record.body_a, record.body_b, differs(i));
+  }
+}
+
+void StillIslands::look_at_joints() {
+  for (const JointLink& link : pendulums_.joints_to_solve())
+    connect(link.body_a, link.body_b, false);
+}
+
+// A contact or a joint ties two bodies. It stirs their island where it `differs`, or where one of
+// the two moves by itself or sleeps.
+void StillIslands::connect(std::uint32_t a, std::uint32_t b, bool differs) {
+  const auto is_solved = [&](std::uint32_t body) {
+    return world_.bodies[body].is_dynamic() && world_.bodies[body].is_awake();
+  };
+  const auto stands = [&](std::uint32_t body) {
+    return !world_.bodies[body].is_dynamic() && !is_moving(world_.bodies[body]);
+  };
+  const bool stirs = differs || !(is_solved(a) || stands(a)) || !(is_solved(b) || stands(b));
+  for (const std::uint32_t body : {a, b}) {
+    if (!is_solved(body)) continue;
+    is_tied_[body] = 1;
+    if (stirs) stir(body);
+  }
+  if (is_solved(a) && is_solved(b)) islands_.join(a, b);
+}
+
+bool StillIslands::differs(std::size_t contact) const {
+  const ContactSurface& surface = found_.surface_of(contact);
+  return surface.is_left_out || surface.twist_drive != Rate{} ||
+         surface.drive != Vec3<SolverVelocity>{} ||
+         !has_same_points(found_.records[contact], found_.manifold_of(contact));
+}
+
+// The island begins to count again.
+void StillIslands::stir(std::uint32_t body) {
+  islands_.mark_active(body);
+  world_.bodies[body].still_ticks = 0;
+}
+
+void StillIslands::keep(std::uint32_t body) {
+  BodyRecord& record = world_.bodies[body];
+  LKS_ASSERT(record.is_dynamic() && record.still_ticks >= ticks_);
+  is_still_[body] = 1;
+  bodies_.push_back(body);
+  if (record.still_ticks > ticks_) return;
+  record.velocity = record.spin = {};
+  record.still_ticks = static_cast<std::uint16_t>(ticks_ + 1);
+  world_.hashes.bodies.mark(body);
+}
+
+void StillIslands::leave_out_contacts() {
+  for (std::size_t i = 0; i < found_.records.size(); ++i) {
+    const ContactRecord& record = found_.records[i];
+    if (record.is_inert() || (!has(record.body_a) && !has(record.body_b))) continue;
+    found_.surface_of(i).is_left_out = true;
+    ++contacts_;
+    points_ += record.count;
+  }
+}
+
+std::uint16_t StillIslands::count_on(const BodyRecord& body) const {
+  return static_cast<std::uint16_t>(std::min<int>(body.still_ticks + 1, ticks_));
+}
+
+}  // namespace lockstone

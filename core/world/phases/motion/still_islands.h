@@ -1,0 +1,71 @@
+// Leaves islands that stand still out of the tick, whether or not their bodies may fall asleep.
+//
+// Bodies at rest that may not sleep, or do not yet, cost as much as bodies that move, although
+// nothing about them changes: the solver finds the same impulses again in each tick. So an island
+// of which no body has changed its pose, by a single bit, for an eighth of a second, keeps its
+// contacts and joints as they are. Its velocities, which are rounding errors by then, become zero.
+// It is solved again in the tick in which anything about it differs: a contact or a point of one,
+// a push, a surface that moves. Commands that would wake sleeping bodies reset the counts of bodies
+// that are awake (Waking).
+//
+// Error: a body that would gain more than the least speed at which bodies move (solver.md, "Still
+// bodies stay") in an eighth of a second, 6e-5 m/s², does not stand still so long.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/islands/islands.h"
+#include "core/world/data/world_data.h"
+#include "core/world/phases/motion/bounces.h"
+#include "core/world/phases/motion/moved_bodies.h"
+#include "core/world/phases/motion/pendulums.h"
+#include "core/world/phases/tick_contacts.h"
+
+namespace lockstone {
+
+class StillIslands {
+ public:
+  /// No function but this allocates. All outlive this; `islands` is scratch that others may share.
+  StillIslands(WorldData& world, TickContacts& found, const Bounces& bounces, Pendulums& pendulums,
+               Islands& islands);
+
+  /// Finds the still islands among the contacts and joints of this tick, and takes those from the
+  /// solver. Once bounces and pendulums are known.
+  void find();
+
+  [[nodiscard]] bool has(std::uint32_t body) const { return is_still_[body] != 0; }
+  /// Ascending.
+  [[nodiscard]] std::span<const std::uint32_t> bodies() const { return bodies_; }
+  /// Contacts of still islands, and their points.
+  [[nodiscard]] std::uint32_t contacts() const { return contacts_; }
+  [[nodiscard]] std::uint32_t points() const { return points_; }
+
+  /// The still_ticks of a body of whose island nothing moved in this tick, once it was solved.
+  [[nodiscard]] std::uint16_t count_on(const BodyRecord& body) const;
+
+ private:
+  [[nodiscard]] bool may_find() const;
+  void look_at_bodies();
+  void look_at_contacts();
+  void look_at_joints();
+  void connect(std::uint32_t a, std::uint32_t b, bool differs);
+  [[nodiscard]] bool differs(std::size_t contact) const;
+  void stir(std::uint32_t body);
+  void keep(std::uint32_t body);
+  void leave_out_contacts();
+
+  WorldData& world_;
+  TickContacts& found_;
+  const Bounces& bounces_;
+  Pendulums& pendulums_;
+  Islands& islands_;
+  const std::uint16_t ticks_;           // so long, then an island is still
+  std::vector<std::uint8_t> is_still_;  // by body
+  std::vector<std::uint8_t> is_tied_;   // by body: by a contact or a joint
+  std::vector<std::uint32_t> bodies_;   // that are still
+  std::uint32_t contacts_ = 0, points_ = 0;
+};
+
+}  // namespace lockstone

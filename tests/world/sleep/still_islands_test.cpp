@@ -1,0 +1,203 @@
+// Islands that stand still are not solved, and are solved again as soon as anything differs.
+//
+// The reference is a world with the same state whose bodies are woken in each tick, so that none of
+// its islands is ever still.
+
+#include <array>
+#include <cstdlib>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+#include "tests/world/joints/joint_fixture.h"
+#include "tests/world/random_commands.h"
+#include "tests/world/sleep/sleepers.h"
+
+namespace lockstone {
+namespace {
+
+using namespace literals;
+using test::add_stack;
+using test::unit_box;
+
+// Nothing sleeps in it.
+World make_sleepless_world() {
+  WorldDef def{.body_capacity = 64, .pair_capacity = 512, .contact_capacity = 512};
+  def.joint_capacity = 16;
+  def.sleep_ms = 0;
+  return test::make_world(def);
+}
+
+// A stack of three that stands still on the ground.
+struct StillStack {
+  World world = make_sleepless_world();
+  BodyHandle ground = test::add_ground(world);
+  std::vector<BodyHandle> stack = add_stack(world, {}, 3);
+
+  StillStack() {
+    test::step(world, 60);
+    EXPECT_EQ(world.step().still_bodies, 3U);
+  }
+  void apply(const Command& command) { EXPECT_EQ(world.apply(command), Status::ok); }
+  [[nodiscard]] std::uint32_t still_after_a_step() { return world.step().still_bodies; }
+};
+
+double newtons(Force force) {
+  return test::number(force.raw, Force::frac_bits);
+}
+
+void wake_all(World& world) {
+  for (std::uint32_t i = 0; i < world.body_limit(); ++i)
+    if (const BodyHandle body = world.body_at(i); world.exists(body))
+      (void)world.apply(WakeBody{body});
+}
+
+// The greatest difference of a component of a body's velocity, m/s.
+double velocity_difference(const World& a, const World& b) {
+  double most = 0;
+  for (std::uint32_t i = 0; i < a.body_limit(); ++i) {
+    const BodyHandle body = a.body_at(i);
+    if (!a.exists(body)) continue;
+    const Vec3<Velocity> difference = a.body(body).velocity - b.body(body).velocity;
+    for (int axis = 0; axis < 3; ++axis)
+      most = std::max(most, std::abs(test::metres_per_second(difference[axis])));
+  }
+  return most;
+}
+
+TEST(StillIslands, AreCountedAndNotSolvedAfterAnEighthOfASecond) {
+  World world = make_sleepless_world();
+  test::add_ground(world);
+  add_stack(world, {}, 3);
+  int ticks = 1;
+  while (world.step().still_bodies == 0 && ticks < 60)
+    ++ticks;
+  EXPECT_GE(ticks, 8);
+  EXPECT_LE(ticks, 20);
+  const StepReport report = world.step();
+  EXPECT_EQ(report.still_bodies, 3U);
+  EXPECT_EQ(report.moving_bodies, 0U);
+  EXPECT_EQ(report.contacts, 3U);
+  EXPECT_EQ(report.contact_points, 12U);
+}
+
+TEST(StillIslands, KeepEveryBitOfTheirState) {
+  StillStack still;
+  const std::uint64_t bodies = still.world.hash().bodies, contacts = still.world.hash().contacts;
+  test::step(still.world, 600);
+  EXPECT_EQ(still.world.hash().bodies, bodies);
+  EXPECT_EQ(still.world.hash().contacts, contacts);
+}
+
+// Three boxes of 1,000 kg each.
+TEST(StillIslands, KeepTheForcesOfTheirContacts) {
+  StillStack still;
+  test::step(still.world, 100);
+  std::array<BodyContact, 4> found;
+  ASSERT_EQ(contacts_of(still.world, still.stack[0], found), 2U);
+  const double weight = 9.81 * 1000 * 3;
+  EXPECT_NEAR(newtons(found[0].normal_force), weight, 1e-3 * weight);
+  EXPECT_NEAR(newtons(found[1].normal_force), weight * 2 / 3, 1e-3 * weight);
+}
+
+TEST(StillIslands, EndWhenABodyIsPushed) {
+  StillStack still;
+  still.apply(ApplyImpulse{still.stack[1], {Impulse::from_integer(1), {}, {}}});
+  EXPECT_EQ(still.still_after_a_step(), 0U);
+}
+
+TEST(StillIslands, FallWhenTheLowestBodyIsDestroyed) {
+  StillStack still;
+  still.apply(DestroyBody{still.stack[0]});
+  test::step(still.world, 10);
+  EXPECT_LT(still.world.body(still.stack[1]).velocity.y, Velocity::from_integer(-1));
+}
+
+TEST(StillIslands, FallWhenTheGroundIsDestroyed) {
+  StillStack still;
+  still.apply(DestroyBody{still.ground});
+  test::step(still.world, 10);
+  EXPECT_LT(still.world.body(still.stack[2]).velocity.y, Velocity::from_integer(-1));
+}
+
+TEST(StillIslands, FollowAChangeOfGravity) {
+  StillStack still;
+  still.apply(SetGravity{{{}, 5_mps2, {}}});
+  test::step(still.world, 10);
+  EXPECT_GT(still.world.body(still.stack[2]).velocity.y, Velocity::from_ratio(1, 2));
+}
+
+TEST(StillIslands, EndWhenABodyArrives) {
+  StillStack still;
+  test::add(still.world, test::dynamic_body(unit_box(), 0.5_m, 4.5_m, {}));
+  test::step(still.world, 30);
+  EXPECT_EQ(still.still_after_a_step(), 0U);
+}
+
+TEST(StillIslands, DoNotIncludeBodiesOnAMovingSurface) {
+  World world = make_sleepless_world();
+  const BodyHandle ground = test::add_ground(world);
+  SetSurfaceMotion belt{ground};
+  belt.motion.velocity.x = SolverVelocity::from_ratio(1, 1000);
+  ASSERT_EQ(world.apply(belt), Status::ok);
+  add_stack(world, {}, 2);
+  for (int i = 0; i < 120; ++i)
+    EXPECT_EQ(world.step().still_bodies, 0U);
+}
+
+TEST(StillIslands, DoNotIncludeBodiesInFreeFlight) {
+  World world = make_sleepless_world();
+  ASSERT_EQ(world.apply(SetGravity{{}}), Status::ok);
+  test::add(world, test::dynamic_body(unit_box(), {}, {}, {}));
+  test::step(world, 60);
+  EXPECT_EQ(world.step().still_bodies, 0U);
+}
+
+// Stacks, a plank on two boxes, a box on a kinematic plate, two welded boxes, a box on a hook.
+World make_still_yard() {
+  World world = make_sleepless_world();
+  test::add_ground(world);
+  add_stack(world, {}, 3);
+  add_stack(world, 4_m, 1);
+  add_stack(world, 6_m, 1);
+  test::add(world, test::dynamic_body(Shape::box(1.5_m, 0.1_m, 0.5_m), 5_m, 1.1_m, {}));
+  BodyDef plate = test::dynamic_body(Shape::box(1_m, 0.1_m, 1_m), -4_m, 2_m, {});
+  plate.motion = MotionType::kinematic;
+  test::add(world, plate);
+  test::add(world, test::dynamic_body(unit_box(), -4_m, 2.6_m, {}));
+  const BodyHandle left = test::add(world, test::dynamic_body(unit_box(), 8_m, 0.5_m, {}));
+  const BodyHandle right = test::add(world, test::dynamic_body(unit_box(), 9_m, 0.5_m, {}));
+  JointDef weld = JointDef::of(JointKind::weld, left, right);
+  weld.frame_a.position.x = 0.5_m;
+  weld.frame_b.position.x = -0.5_m;
+  test::join(world, weld);
+  test::step(world, 60);
+  return world;
+}
+
+// Commands of every kind: a still world goes on as one that is solved in every tick.
+TEST(StillIslands, MoveAfterAnyCommandAsIfTheyHadNeverBeenStill) {
+  World start = make_still_yard();
+  EXPECT_EQ(start.step().still_bodies, 7U);  // all but the welded ones, which tremble
+  const std::vector<std::byte> bytes = test::save(start, SnapshotKind::canonical);
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    World still = make_sleepless_world(), solved = make_sleepless_world();
+    ASSERT_EQ(still.load(SnapshotKind::canonical, bytes), Status::ok);
+    ASSERT_EQ(solved.load(SnapshotKind::canonical, bytes), Status::ok);
+    test::Random random(seed);
+    test::CommandDice dice(still, random, false);
+    const Command command = dice.any();
+    ASSERT_EQ(still.apply(command), solved.apply(command));
+    for (int tick = 1; tick <= 4; ++tick) {
+      wake_all(solved);
+      EXPECT_EQ(solved.step().still_bodies, 0U);
+      (void)still.step();
+      EXPECT_LT(velocity_difference(still, solved), 1e-3)
+          << "seed " << seed << ", command " << command.index() << ", tick " << tick;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lockstone
