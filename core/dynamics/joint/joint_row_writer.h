@@ -96,6 +96,7 @@ class RowWriter {
     row.axis = static_cast<std::uint8_t>(axis);
     row.kind = kind;
     row.error = error;
+    if (place_.turns_locks && axis >= 3) row.speed = speed_of(axis, place_.joint.axes[axis].speed);
     LKS_ASSERT(out_->count < out_->rows.size());
     const auto begin = out_->rows.begin();
     out_->rows[out_->count++] = row;
@@ -161,6 +162,7 @@ class RowWriter {
       row.axis = static_cast<std::uint8_t>(i);
       row.kind = RowKind::lock;
       row.flipped = false;
+      row.speed = 0;
       row.error = bounded(arms.gap[static_cast<int>(i)].raw, k_product_bound);
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
       row.linear_a = row.linear_b = {};

@@ -84,38 +84,40 @@ void bone_poses(const RagdollDef& def, const RagdollPose& pose, std::span<Transf
 [[nodiscard]] RagdollPose pose_of(const World& world, const RagdollDef& def,
                                   const Ragdoll& ragdoll);
 
-/// How a bone follows a pose.
+/// How a bone follows a pose. Of the root, which has no joint, all but `kinematic` are limp.
 enum class BoneMode : std::uint8_t {
   limp = 0,       ///< not at all: contacts, limits and friction move it
-  driven = 1,     ///< by a spring at its joint, which contacts can overcome; of the root: limp
-  kinematic = 2,  ///< as a kinematic body, which nothing can stop
+  sprung = 1,     ///< by a spring at its joint, which contacts and weights overcome
+  driven = 2,     ///< exactly: its joint locks and turns, as strong as need be, beyond limits too
+  kinematic = 3,  ///< as a kinematic body, which nothing can stop
 };
 [[nodiscard]] std::string_view to_string(BoneMode mode);
 
-/// The spring of a driven bone: of the frequency that it and its parent alone would have. Bones
-/// beyond it make it slower.
+/// How one bone is driven. The spring has the frequency that the bone and its parent alone would
+/// have: bones beyond it make it slower.
 struct BoneDrive {
   BoneMode mode = BoneMode::driven;
-  Number hertz = Number::from_integer(30);         ///< 0.01 … 1000; stiffest at substeps/4
-  Number damping_ratio = Number::from_integer(1);  ///< 0 … 100
-  Torque max_torque{};                             ///< N·m about each axis, ≥ 0; 0: no bound
+  Number hertz = Number::from_integer(15);         ///< of a sprung bone, 0.01 … 1000 Hz
+  Number damping_ratio = Number::from_integer(1);  ///< of a sprung bone, 0 … 100
+  Torque max_torque{};  ///< of a sprung bone, N·m about each axis, ≥ 0; 0: no bound
 
   friend bool operator==(const BoneDrive&, const BoneDrive&) = default;
 };
 
 /// Drives all joints at once through the coming tick: from one pose at its beginning to another at
-/// its end, such that springs are damped against the motion of the poses. The same pose twice holds
-/// it. `drives`: one for each bone, or a single one for all. Until the next one the springs keep
-/// their last targets and speeds: end a motion by the same pose twice.
+/// its end. The same pose twice holds it. `drives`: one for each bone, or a single one for all.
+/// Locked joints stay at their last pose until the next call. Springs keep their targets and the
+/// speeds that they are damped against: end a motion with the same pose twice.
 ///
-/// Emits SetAngularAxis for each joint, MoveKinematic for each kinematic bone, and SetMotionType,
+/// Applies SetAngularAxis for each joint, MoveKinematic for each kinematic bone, and SetMotionType,
 /// DestroyJoint and `create_joint` for bones whose mode changes: a joint needs a dynamic body, so
 /// that between two kinematic bones there is none. A joint that broke or that the game destroyed
-/// stays away, and its bone is limp.
+/// stays away, and its bone is limp. Between a kinematic bone and a parent that is none, the joint
+/// follows the mode of the parent.
 ///
 /// stale_handle if a body is gone, invalid_argument for numbers out of range: nothing has changed.
 /// Else the status of the first command that failed, say a MoveKinematic faster than a body may be;
-/// the others were carried out.
+/// the others were applied.
 Status drive_ragdoll(World& world, const RagdollDef& def, Ragdoll& ragdoll, const RagdollPose& from,
                      const RagdollPose& to, std::span<const BoneDrive> drives);
 

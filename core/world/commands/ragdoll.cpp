@@ -184,7 +184,7 @@ RagdollPose pose_of(const World& world, const RagdollDef& def, const Ragdoll& ra
 }
 
 std::string_view to_string(BoneMode mode) {
-  constexpr std::string_view k_names[] = {"limp", "driven", "kinematic"};
+  constexpr std::string_view k_names[] = {"limp", "sprung", "driven", "kinematic"};
   const auto index = static_cast<std::size_t>(mode);
   return index < std::size(k_names) ? k_names[index] : "unknown";
 }

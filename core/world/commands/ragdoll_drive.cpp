@@ -44,6 +44,24 @@ JointTarget target_of(const Quat& from, const Quat& to, std::int64_t tick_rate) 
   return target;
 }
 
+AngularAxis settings_of(const BoneDrive& drive, const AngularAxis& limp, Angle target, Rate speed) {
+  AngularAxis axis = limp;
+  if (limp.mode == AxisMode::locked || drive.mode == BoneMode::limp ||
+      drive.mode == BoneMode::kinematic)
+    return axis;
+  axis.target = target;
+  axis.speed = speed;
+  axis.max_effort = {};
+  if (drive.mode == BoneMode::driven) {
+    axis.mode = AxisMode::locked;
+    return axis;
+  }
+  axis.hertz = drive.hertz;
+  axis.damping_ratio = drive.damping_ratio;
+  axis.max_effort = drive.max_torque;
+  return axis;
+}
+
 class RagdollDriver {
  public:
   RagdollDriver(World& world, const RagdollDef& def, Ragdoll& ragdoll,
@@ -109,29 +127,18 @@ class RagdollDriver {
     if (joint.ok()) ragdoll_.joints[bone] = joint.value();
   }
 
-  // A driven bone under a kinematic parent, and a kinematic one under a driven parent, both have
-  // the spring of the bone that is driven.
-  [[nodiscard]] const BoneDrive* spring_of(std::size_t bone) const {
-    const BoneDrive& own = drive_of(bone);
-    if (own.mode == BoneMode::driven) return &own;
-    const BoneDrive& parent = drive_of(def_.bones[bone].parent);
-    return own.mode == BoneMode::kinematic && parent.mode == BoneMode::driven ? &parent : nullptr;
+  // The drive of a bone's joint.
+  [[nodiscard]] const BoneDrive& joint_drive(std::size_t bone) const {
+    return is_kinematic(bone) ? drive_of(def_.bones[bone].parent) : drive_of(bone);
   }
 
   void set_targets(std::size_t bone, const Quat& from, const Quat& to) {
     const JointDef joint = joint_of(def_, ragdoll_, bone);
-    const BoneDrive* spring = spring_of(bone);
+    const BoneDrive& drive = joint_drive(bone);
     const JointTarget target = target_of(from, to, world_.def().tick_rate);
     for (int i = 0; i < 3; ++i) {
-      AngularAxis axis = joint.angular[static_cast<std::size_t>(i)];
-      if (axis.mode == AxisMode::locked) continue;
-      if (spring != nullptr) {
-        axis.target = target.angle[i];
-        axis.speed = target.speed[i];
-        axis.hertz = spring->hertz;
-        axis.damping_ratio = spring->damping_ratio;
-        axis.max_effort = spring->max_torque;
-      }
+      const AngularAxis& limp = joint.angular[static_cast<std::size_t>(i)];
+      const AngularAxis axis = settings_of(drive, limp, target.angle[i], target.speed[i]);
       note(world_.apply(SetAngularAxis{ragdoll_.joints[bone], static_cast<std::uint8_t>(i), axis}));
     }
   }

@@ -83,7 +83,7 @@ struct Figure {
   RagdollDef def{.bones = bones, .filter = {.group = -1}};
   World world = test::make_world();
   Ragdoll ragdoll = create_ragdoll(world, def, walk(0)).value();
-  std::vector<BoneDrive> drives{bone_count, BoneDrive{.hertz = 60_r}};
+  std::vector<BoneDrive> drives{bone_count, BoneDrive{}};
 
   Figure() { drives[hips].mode = BoneMode::kinematic; }
 

@@ -1,9 +1,12 @@
 #include "core/dynamics/linkage/system/linked_joint.h"
 
+#include <algorithm>
+
 #include <lockstone/assert.h>
 
 #include "core/dynamics/joint/joint_numbers.h"
 #include "core/math/product_sum.h"
+#include "core/math/trig.h"
 
 namespace lockstone {
 namespace {
@@ -20,7 +23,42 @@ MassShare mass_share(BlockFloat part, BlockFloat whole) {
   return {static_cast<std::uint32_t>(mantissa), 31 + distance};
 }
 
+// The turn of frame B against frame A that locks hold.
+Quat locked_turn(const JointRecord& joint) {
+  RotationVector turn;
+  for (int i = 0; i < 3; ++i)
+    turn[i].raw = std::int64_t{joint.axes[static_cast<std::size_t>(i) + 3].target} << 5;
+  return rotation_from_vector(turn);
+}
+
+// The turn back from the target, in its own axes, to where it is some substeps before the end.
+Quat turn_left(const JointRecord& joint, const TimeStep& step, std::int32_t substeps) {
+  RotationVector turn;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t speed = joint.axes[static_cast<std::size_t>(i) + 3].speed;
+    turn[i].raw = raw::round_divide(-speed * substeps * (1 << 12), step.substep_rate());
+  }
+  return rotation_from_vector(turn);
+}
+
 }  // namespace
+
+void set_frames(LinkedJoint& joint, const TimeStep& step, std::int32_t substeps_left) {
+  const JointRecord& record = *joint.record;
+  joint.frames = {to_matrix(record.orientation_a), to_matrix(record.orientation_b)};
+  joint.turns_locks = record.turns_locks();
+  LKS_ASSERT(substeps_left >= 0 && substeps_left <= step.substeps);
+  if (record.locks_turning()) {
+    const Quat end = normalized(multiply(record.orientation_a, locked_turn(record)));
+    const auto frame = [&](std::int32_t left) {
+      return to_matrix(normalized(multiply(end, turn_left(record, step, left))));
+    };
+    joint.frames.a = frame(substeps_left);
+    joint.frames_ahead = {frame(std::max(substeps_left - 1, 0)), joint.frames.b};
+  } else {
+    joint.frames_ahead = joint.frames;
+  }
+}
 
 std::uint64_t list_rows(const JointRows& rows) {
   static_assert(5 * k_max_joint_rows < 64);
@@ -63,6 +101,9 @@ void store_impulses(const LinkedJoint& joint, bool moves_first, JointRecord& rec
     return SolverVelocity::from_raw(raw::saturate<std::int32_t>(raw::round_shift(impulse, 30)));
   };
   record.energy_gained = joint.energy_gained;
+  if (joint.turns_locks)
+    for (std::size_t i = 3; i < k_joint_axes; ++i)
+      record.axes[i].speed = 0;
   for (JointAxisRecord& axis : record.axes)
     axis.impulse = axis.drive_impulse = {};
   for (std::size_t i = 0; i < joint.rows.count; ++i) {
@@ -80,6 +121,7 @@ void store_impulses(const LinkedJoint& joint, bool moves_first, JointRecord& rec
 }
 
 bool only_locks(const JointRecord& joint) {
+  if (joint.turns_locks()) return false;
   for (std::size_t i = 0; i < k_joint_axes; ++i) {
     const JointAxisRecord& axis = joint.axes[i];
     if (axis.is_driven()) return false;
