@@ -80,53 +80,291 @@ RagdollPose walk(int tick) {
 
 struct Figure {
   std::vector<Bone> bones = half_figure();
-  RagdollDef def{.bones = bones, .filter = {.group = -1}};
+  RagdollDef def{.bones = bones, .filter = {.group = -1}, .user_data = 7};
   World world = test::make_world();
   Ragdoll ragdoll = create_ragdoll(world, def, walk(0)).value();
   std::vector<BoneDrive> drives{bone_count, BoneDrive{}};
 
   Figure() { drives[hips].mode = BoneMode::kinematic; }
 
+  Status drive(const RagdollPose& from, const RagdollPose& to) {
+    return drive_ragdoll(world, def, ragdoll, from, to, drives);
+  }
   void play(int tick) {
-    ASSERT_EQ(drive_ragdoll(world, def, ragdoll, walk(tick), walk(tick + 1), drives), Status::ok);
+    ASSERT_EQ(drive(walk(tick), walk(tick + 1)), Status::ok);
     (void)world.step();
   }
+  [[nodiscard]] MotionType motion(std::size_t bone) const {
+    return world.body(ragdoll.bodies[bone]).motion;
+  }
 };
-
-double distance(const Transform& a, const Transform& b) {
-  return std::hypot(metres(a.position.x - b.position.x), metres(a.position.y - b.position.y),
-                    metres(a.position.z - b.position.z));
-}
 
 struct Error {
-  double place = 0, turn = 0;
+  double place = 0, turn = 0;  // m, rad
+
+  void add(const Transform& is, const Transform& wanted) {
+    const Vec3<Position> d = is.position - wanted.position;
+    place = std::max(place, std::hypot(metres(d.x), metres(d.y), metres(d.z)));
+    turn = std::max(turn, std::ldexp(angle_between(is.orientation, wanted.orientation).raw, -27));
+  }
 };
 
-Error error_of(const Figure& figure, const RagdollPose& wanted) {
+// Of some bones against a pose.
+void add_errors(const Figure& figure, const RagdollPose& wanted, std::span<const BoneIndex> bones,
+                Error& error) {
   std::array<Transform, bone_count> poses;
   bone_poses(figure.def, wanted, poses);
-  Error worst;
-  for (std::size_t i = 0; i < bone_count; ++i) {
-    const Transform at = pose_of(figure.world, figure.ragdoll.bodies[i]);
-    worst.place = std::max(worst.place, distance(at, poses[i]));
-    worst.turn = std::max(worst.turn,
-                          std::ldexp(angle_between(at.orientation, poses[i].orientation).raw, -27));
-  }
-  return worst;
+  for (const BoneIndex i : bones)
+    error.add(pose_of(figure.world, figure.ragdoll.bodies[i]), poses[i]);
 }
+
+constexpr BoneIndex k_all[] = {hips, chest, head, arm, hand, thigh, shin};
 
 TEST(Ragdolls, FollowAPoseWithinAMillimetre) {
   Figure figure;
   Error worst;
   for (int tick = 0; tick < 300; ++tick) {
     figure.play(tick);
-    const Error now = error_of(figure, walk(tick + 1));
-    if (tick % 20 == 0) std::printf("%d: %.6f m %.6f rad\n", tick, now.place, now.turn);
-    if (tick < 30) continue;
-    worst = {std::max(worst.place, now.place), std::max(worst.turn, now.turn)};
+    add_errors(figure, walk(tick + 1), k_all, worst);
   }
-  std::printf("follows within %.6f m, %.6f rad\n", worst.place, worst.turn);
+  std::printf("driven: within %.3g m, %.3g rad\n", worst.place, worst.turn);
+  EXPECT_LT(worst.place, 1e-5);
+  EXPECT_LT(worst.turn, 1e-5);
+}
+
+// The root is free too: the pose decides the joints alone.
+TEST(Ragdolls, FollowAPoseInFreeFall) {
+  Figure figure;
+  figure.drives[hips].mode = BoneMode::limp;
+  Error worst;
+  for (int tick = 0; tick < 60; ++tick) {
+    figure.play(tick);
+    RagdollPose wanted = walk(tick + 1);
+    wanted.root = pose_of(figure.world, figure.ragdoll.bodies[hips]);
+    add_errors(figure, wanted, k_all, worst);
+  }
+  EXPECT_LT(metres(figure.world.position(figure.ragdoll.bodies[hips]).y), -1);
+  EXPECT_LT(worst.place, 1e-5);
+  EXPECT_LT(worst.turn, 1e-5);
+}
+
+// A limp figure falls and swings from its hips; another one plays the poses in which it stood.
+TEST(Ragdolls, PlayRecordedPosesWithinAMillimetre) {
+  Figure limp;
+  std::vector<RagdollPose> recorded{pose_of(limp.world, limp.def, limp.ragdoll)};
+  std::vector<std::array<Transform, bone_count>> places;
+  for (std::size_t i = 1; i < bone_count; ++i)
+    limp.drives[i].mode = BoneMode::limp;
+  for (int tick = 0; tick < 240; ++tick) {
+    limp.play(tick);
+    recorded.push_back(pose_of(limp.world, limp.def, limp.ragdoll));
+    for (std::size_t i = 0; i < bone_count; ++i)
+      places.resize(recorded.size() - 1),
+          places.back()[i] = pose_of(limp.world, limp.ragdoll.bodies[i]);
+  }
+  Figure player;
+  Error worst;
+  for (std::size_t tick = 0; tick + 1 < recorded.size(); ++tick) {
+    ASSERT_EQ(player.drive(recorded[tick], recorded[tick + 1]), Status::ok);
+    (void)player.world.step();
+    for (std::size_t i = 0; i < bone_count; ++i)
+      worst.add(pose_of(player.world, player.ragdoll.bodies[i]), places[tick][i]);
+  }
+  std::printf("played: within %.3g m, %.3g rad\n", worst.place, worst.turn);
   EXPECT_LT(worst.place, 1e-3);
+  EXPECT_LT(worst.turn, 1e-3);
+}
+
+TEST(Ragdolls, AreLimpInPart) {
+  Figure figure;
+  figure.drives[arm].mode = figure.drives[hand].mode = BoneMode::limp;
+  constexpr BoneIndex k_driven[] = {hips, chest, head, thigh, shin};
+  constexpr BoneIndex k_limp[] = {hand};
+  Error driven, limp;
+  for (int tick = 0; tick < 120; ++tick) {
+    figure.play(tick);
+    add_errors(figure, walk(tick + 1), k_driven, driven);
+    add_errors(figure, walk(tick + 1), k_limp, limp);
+  }
+  EXPECT_LT(driven.place, 1e-5);
+  EXPECT_GT(limp.place, 0.1);
+}
+
+TEST(Ragdolls, SpringsYieldToWeightAndComeBack) {
+  Figure figure;
+  for (std::size_t i = 1; i < bone_count; ++i)
+    figure.drives[i] = {.mode = BoneMode::sprung, .hertz = 30_r};
+  const RagdollPose still = walk(0);
+  const auto error = [&](int ticks) {
+    for (int tick = 0; tick < ticks; ++tick) {
+      EXPECT_EQ(figure.drive(still, still), Status::ok);
+      (void)figure.world.step();
+    }
+    Error now;
+    add_errors(figure, still, k_all, now);
+    return now.place;
+  };
+  EXPECT_LT(error(120), 0.03);
+  const Vec3<Impulse> blow{{}, {}, 3_Ns};
+  ASSERT_EQ(figure.world.apply(ApplyImpulse{figure.ragdoll.bodies[hand], blow, Frame::world}),
+            Status::ok);
+  EXPECT_GT(error(4), 0.05);
+  EXPECT_LT(error(300), 0.03);
+}
+
+TEST(Ragdolls, HoldTheLastPoseUntilTheNextCall) {
+  Figure figure;
+  for (int tick = 0; tick < 20; ++tick)
+    figure.play(tick);
+  ASSERT_EQ(figure.drive(walk(20), walk(20)), Status::ok);
+  test::step(figure.world, 60);
+  Error error;
+  add_errors(figure, walk(20), k_all, error);
+  EXPECT_LT(error.place, 1e-5);
+}
+
+// All bones are kinematic, then limp, then driven.
+TEST(Ragdolls, ChangeTheirModes) {
+  Figure figure;
+  const auto set = [&](BoneMode mode) {
+    for (BoneDrive& drive : figure.drives)
+      drive.mode = mode;
+  };
+  set(BoneMode::kinematic);
+  for (int tick = 0; tick < 10; ++tick)
+    figure.play(tick);
+  EXPECT_EQ(figure.motion(hand), MotionType::kinematic);
+  EXPECT_EQ(figure.world.joint_count(), 0U);
+  Error error;
+  add_errors(figure, walk(10), k_all, error);
+  EXPECT_LT(error.place, 1e-6);
+  set(BoneMode::limp);
+  figure.play(10);
+  EXPECT_EQ(figure.world.joint_count(), 6U);
+  EXPECT_EQ(figure.motion(hips), MotionType::dynamic);
+  EXPECT_EQ(figure.world.mass(figure.ragdoll.bodies[head]), figure.ragdoll.masses[head]);
+  set(BoneMode::driven);
+  figure.drives[hips].mode = figure.drives[chest].mode = BoneMode::kinematic;
+  for (int tick = 11; tick < 80; ++tick)
+    figure.play(tick);
+  EXPECT_EQ(figure.world.joint_count(), 5U);
+  Error again;
+  add_errors(figure, walk(80), k_all, again);
+  EXPECT_LT(again.place, 1e-3);
+}
+
+TEST(Ragdolls, LeaveATornOffLimbAlone) {
+  Figure figure;
+  figure.play(0);
+  ASSERT_EQ(figure.world.apply(DestroyJoint{figure.ragdoll.joints[arm]}), Status::ok);
+  for (int tick = 1; tick < 60; ++tick)
+    figure.play(tick);
+  EXPECT_EQ(figure.world.joint_count(), 5U);
+  EXPECT_LT(metres(figure.world.position(figure.ragdoll.bodies[arm]).y), -1);
+}
+
+TEST(Ragdolls, ReadBackThePoseTheyWereMadeIn) {
+  const Figure figure;
+  const RagdollPose read = pose_of(figure.world, figure.def, figure.ragdoll), made = walk(0);
+  for (std::size_t i = 1; i < bone_count; ++i)
+    EXPECT_LT(angle_between(read.turns[i], made.turns[i]), 0.0000001_rad) << i;
+  EXPECT_EQ(read.root.position, made.root.position);
+  EXPECT_EQ(figure.world.body(figure.ragdoll.bodies[hand]).user_data, 7U);
+}
+
+TEST(Ragdolls, SayWhyTheyAreRefused) {
+  const auto refused = [](auto change) {
+    Figure figure;
+    const std::uint32_t before = figure.world.body_count();
+    change(figure.bones);
+    const RagdollDef def{.bones = figure.bones};
+    EXPECT_FALSE(create_ragdoll(figure.world, def, {}).ok());
+    EXPECT_EQ(figure.world.body_count(), before);
+    return explain(figure.world, def).to_line();
+  };
+  EXPECT_EQ(refused([](auto& bones) { bones.clear(); }), "ragdoll.bones.size: 0, must be 1 … 64");
+  EXPECT_EQ(refused([](auto& bones) { bones[hand].parent = shin; }),
+            "bones[4].parent: 6, must be the index of a bone before this one");
+  EXPECT_EQ(refused([](auto& bones) { bones[hips].parent = 0; }),
+            "bones[0].parent: 0, must be k_no_bone for the first bone");
+  EXPECT_EQ(refused([](auto& bones) { bones[arm].joint = JointKind::wheel; }),
+            "bones[3].joint: wheel, must be ball, hinge or weld");
+  EXPECT_EQ(refused([](auto& bones) { bones[arm].max_swing = -0.5_rad; }),
+            "bones[3].max_swing: -0.5 rad, must be 0 … 3.141593 rad");
+  EXPECT_EQ(refused([](auto& bones) { bones[head].shape = Shape::sphere({}); }),
+            "bones[2].body.shape.radius: 0 m, must be 0.000977 … 512 m");
+}
+
+TEST(Ragdolls, LeaveNothingBehindWhereThereIsNoRoom) {
+  World world = test::make_world({.body_capacity = 64, .joint_capacity = 3});
+  const std::vector<Bone> bones = half_figure();
+  EXPECT_EQ(create_ragdoll(world, {.bones = bones}, {}).status(), Status::capacity_exhausted);
+  EXPECT_EQ(world.body_count(), 0U);
+  EXPECT_EQ(world.joint_count(), 0U);
+}
+
+TEST(Ragdolls, ChangeNothingWhereADriveIsRefused) {
+  Figure figure;
+  const std::uint64_t before = figure.world.hash().total;
+  const auto refuses = [&](auto change, Status status) {
+    Figure bad;
+    change(bad);
+    EXPECT_EQ(bad.drive(walk(0), walk(1)), status);
+    EXPECT_EQ(bad.world.hash().total, before);
+  };
+  const auto set = [](auto field, auto value) {
+    return [=](Figure& bad) { bad.drives[arm].*field = value; };
+  };
+  refuses(set(&BoneDrive::hertz, Number{}), Status::invalid_argument);
+  refuses(set(&BoneDrive::hertz, 1001_r), Status::invalid_argument);
+  refuses(set(&BoneDrive::damping_ratio, -1_r), Status::invalid_argument);
+  refuses(set(&BoneDrive::max_torque, Torque::from_integer(-1)), Status::invalid_argument);
+  refuses(set(&BoneDrive::mode, BoneMode{9}), Status::invalid_argument);
+  refuses([](Figure& bad) { bad.drives.resize(2); }, Status::invalid_argument);
+  refuses([](Figure& bad) { bad.ragdoll.bodies[hand].generation = 9; }, Status::stale_handle);
+  RagdollPose flat = walk(1);
+  flat.turns[arm] = {{}, {}, {}, {}};
+  EXPECT_EQ(figure.drive(walk(0), flat), Status::invalid_argument);
+  EXPECT_EQ(figure.world.hash().total, before);
+}
+
+// Saved between the commands of a tick and its step, and loaded into another world.
+TEST(Ragdolls, GoOnFromASnapshotTakenInTheMiddleOfATick) {
+  for (const SnapshotKind kind : {SnapshotKind::native, SnapshotKind::canonical}) {
+    Figure figure, other;
+    for (int tick = 0; tick < 30; ++tick)
+      figure.play(tick);
+    ASSERT_EQ(figure.drive(walk(30), walk(31)), Status::ok);
+    std::vector<std::byte> bytes(figure.world.snapshot_bytes_max(kind));
+    bytes.resize(figure.world.save(kind, bytes));
+    World& loaded = kind == SnapshotKind::native ? figure.world : other.world;
+    (void)figure.world.step();
+    const std::uint64_t after = figure.world.hash().total;
+    ASSERT_EQ(loaded.load(kind, bytes), Status::ok);
+    (void)loaded.step();
+    EXPECT_EQ(loaded.hash().total, after);
+  }
+}
+
+// A lock turns once, at the speed that the command gave: then its speed is 0.
+TEST(TurningLocks, ArriveAndStay) {
+  Figure figure;
+  JointDef weld = JointDef::of(JointKind::weld, figure.ragdoll.bodies[hips], {});
+  BodyDef body = test::dynamic_body(Shape::box(0.1_m, 0.3_m, 0.2_m), 1_m, 2_m, {});
+  body.filter.group = -1;
+  weld.body_b = test::add(figure.world, body);
+  weld.frame_a.position = {1_m, {}, {}};
+  const JointHandle joint = figure.world.create_joint(weld).value();
+  figure.play(0);
+  const AngularAxis turn{.mode = AxisMode::locked, .target = 0.05_rad, .speed = 3_rps};
+  ASSERT_EQ(figure.world.apply(SetAngularAxis{joint, 1, turn}), Status::ok);
+  figure.play(1);
+  const auto angle = [&] { return std::ldexp(figure.world.joint(joint).angle.y.raw, -27); };
+  EXPECT_NEAR(angle(), 0.05, 1e-7);
+  for (int tick = 2; tick < 30; ++tick) {
+    figure.play(tick);
+    ASSERT_NEAR(angle(), 0.05, 1e-6) << tick;
+  }
 }
 
 }  // namespace
