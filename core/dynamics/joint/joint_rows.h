@@ -67,7 +67,7 @@ struct JointPlace {
   int exponent;                // of angular rows
   std::uint8_t far = 0;        // axes, a bit each, whose limits get no rows
   bool holds_a_point = false;  // as below
-  bool turns_locks = false;    // as JointRecord::turns_locks
+  bool turns_locks = false;    // the record does
 };
 
 /// The parts of a joint's rows to compute.

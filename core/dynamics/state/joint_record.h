@@ -73,24 +73,27 @@ struct JointRecord {
   [[nodiscard]] bool is(JointKind k) const { return kind == static_cast<std::uint8_t>(k); }
   [[nodiscard]] bool collides() const { return (flags & k_joint_collide) != 0; }
   [[nodiscard]] AxisMode mode(std::size_t axis) const { return static_cast<AxisMode>(modes[axis]); }
-
-  /// Whether the joint locks all turning: frame B then stays at the rotation vector of the targets.
-  [[nodiscard]] bool locks_turning() const {
-    for (std::size_t i = 3; i < k_joint_axes; ++i)
-      if (mode(i) != AxisMode::locked || axes[i].is_driven()) return false;
-    return true;
-  }
-  /// Whether it turns frame B in the coming tick.
-  [[nodiscard]] bool turns_locks() const {
-    return (axes[3].speed | axes[4].speed | axes[5].speed) != 0 && locks_turning();
-  }
-  /// Whether springs, motors or turning locks may give energy.
-  [[nodiscard]] bool is_driven() const {
-    for (const JointAxisRecord& axis : axes)
-      if (axis.is_driven()) return true;
-    return turns_locks();
-  }
 };
+
+/// Whether a joint locks all turning: frame B then stays at the rotation vector of the targets.
+[[nodiscard]] inline bool locks_turning(const JointRecord& joint) {
+  for (std::size_t i = 3; i < k_joint_axes; ++i)
+    if (joint.mode(i) != AxisMode::locked || joint.axes[i].is_driven()) return false;
+  return true;
+}
+
+/// Whether it turns frame B in the coming tick.
+[[nodiscard]] inline bool turns_locks(const JointRecord& joint) {
+  const std::int32_t any = joint.axes[3].speed | joint.axes[4].speed | joint.axes[5].speed;
+  return any != 0 && locks_turning(joint);
+}
+
+/// Whether springs, motors or turning locks may give energy.
+[[nodiscard]] inline bool is_driven(const JointRecord& joint) {
+  for (const JointAxisRecord& axis : joint.axes)
+    if (axis.is_driven()) return true;
+  return turns_locks(joint);
+}
 
 /// Of an axis's raws.
 struct JointAxisFormats {

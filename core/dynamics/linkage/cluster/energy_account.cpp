@@ -37,7 +37,7 @@ void EnergyAccount::open(JointCluster& cluster) {
     return body.touches || body.is_among_contacts || body.in_balls;
   };
   cluster.is_driven = std::ranges::any_of(system_.joints_of(cluster), [](const LinkedJoint& joint) {
-    return joint.record->is_driven();
+    return is_driven(*joint.record);
   });
   cluster.is_passive =
       !cluster.moves_first && !cluster.is_driven &&

@@ -65,6 +65,7 @@ void linearize(const JointSystem& system, LinkedJoint& joint) {
 }
 
 void linearize(JointSystem& system, const JointCluster& cluster) {
+  LKS_ASSERT(cluster.substep >= 0 && cluster.substep <= system.step.substeps);
   for (LinkedJoint& joint : system.joints_of(cluster)) {
     if (joint.turns_locks) set_frames(joint, system.step, system.step.substeps - cluster.substep);
     linearize(system, joint);

@@ -46,9 +46,9 @@ Quat turn_left(const JointRecord& joint, const TimeStep& step, std::int32_t subs
 void set_frames(LinkedJoint& joint, const TimeStep& step, std::int32_t substeps_left) {
   const JointRecord& record = *joint.record;
   joint.frames = {to_matrix(record.orientation_a), to_matrix(record.orientation_b)};
-  joint.turns_locks = record.turns_locks();
+  joint.turns_locks = turns_locks(record);
   LKS_ASSERT(substeps_left >= 0 && substeps_left <= step.substeps);
-  if (record.locks_turning()) {
+  if (locks_turning(record)) {
     const Quat end = normalized(multiply(record.orientation_a, locked_turn(record)));
     const auto frame = [&](std::int32_t left) {
       return to_matrix(normalized(multiply(end, turn_left(record, step, left))));
@@ -121,7 +121,7 @@ void store_impulses(const LinkedJoint& joint, bool moves_first, JointRecord& rec
 }
 
 bool only_locks(const JointRecord& joint) {
-  if (joint.turns_locks()) return false;
+  if (turns_locks(joint)) return false;
   for (std::size_t i = 0; i < k_joint_axes; ++i) {
     const JointAxisRecord& axis = joint.axes[i];
     if (axis.is_driven()) return false;

@@ -80,7 +80,7 @@ struct LinkedJoint {
   std::array<std::int8_t, k_joint_axes> scales{};  // of its locks in the factor, exponents
   std::uint8_t far = 0;        // axes whose limits have no rows in this tick, a bit each
   bool holds_a_point = false;  // and nothing else has rows in this tick
-  bool turns_locks = false;    // as JointRecord::turns_locks: the frames on body a move
+  bool turns_locks = false;    // the record does: the frames on body a move
 };
 
 /// The rows of a joint as a list of digits: the axis of each, and whether it is a lock, a limit or

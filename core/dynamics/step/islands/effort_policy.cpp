@@ -91,7 +91,7 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
     if (joints.solver().number_of(i) == JointSolver::k_in_balls) tally.iterates_only = true;
     const bool is_free = scene.bodies[link.body_a].is_dynamic() &&
                          scene.bodies[link.body_b].is_dynamic() &&
-                         !scene.joints[link.joint].is_driven();
+                         !is_driven(scene.joints[link.joint]);
     if (!is_free) tally.is_carried = true;
     const BodyRecord &a = scene.bodies[link.body_a], &b = scene.bodies[link.body_b];
     tally.least_share =

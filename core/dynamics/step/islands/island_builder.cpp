@@ -95,7 +95,7 @@ void IslandBuilder::find_energy_sources(const ContactScene& scene, const SolverB
   for (const JointLink& link : scene.joint_links) {
     LKS_ASSERT(link.joint < scene.joints.size());
     const bool is_fed =
-        scene.joints[link.joint].is_driven() || moves(link.body_a) || moves(link.body_b);
+        is_driven(scene.joints[link.joint]) || moves(link.body_a) || moves(link.body_b);
     for (const std::uint32_t body : {link.body_a, link.body_b}) {
       if (!scene.bodies[body].is_dynamic()) continue;
       IslandTally& own = tally(islands_.of(bodies.number_of(body)));
