@@ -37,13 +37,13 @@ void EnergyAccount::open(JointCluster& cluster) {
     return body.touches || body.is_among_contacts || body.in_balls;
   };
   cluster.is_driven = std::ranges::any_of(system_.joints_of(cluster), [](const LinkedJoint& joint) {
-    return is_driven(*joint.record);
+    return std::ranges::any_of(joint.record->axes, &JointAxisRecord::is_driven);
   });
   cluster.is_passive =
       !cluster.moves_first && !cluster.is_driven &&
       std::ranges::none_of(system_.bodies_of(cluster), may_be_pushed) &&
       std::ranges::all_of(system_.joints_of(cluster), [&](const LinkedJoint& joint) {
-        return stands(joint.a) && stands(joint.b);
+        return !joint.turns_locks && stands(joint.a) && stands(joint.b);
       });
   cluster.first_gained = 0;
   if (cluster.is_passive) {

@@ -62,7 +62,7 @@ struct JointCluster {
   bool moves_first = false;  // positions go half a substep first
 
   // Its account of energy.
-  bool is_driven = false;   // by springs, motors or turning locks
+  bool is_driven = false;   // by springs or motors
   bool is_passive = false;  // only gravity and forces give it energy
   bool knows_energy = false;
   BlockFloat unit{};  // inverse mass of its heaviest body
