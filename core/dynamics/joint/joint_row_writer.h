@@ -96,7 +96,6 @@ class RowWriter {
     row.axis = static_cast<std::uint8_t>(axis);
     row.kind = kind;
     row.error = error;
-    if (place_.turns_locks && axis >= 3) row.speed = speed_of(axis, place_.joint.axes[axis].speed);
     LKS_ASSERT(out_->count < out_->rows.size());
     const auto begin = out_->rows.begin();
     out_->rows[out_->count++] = row;
@@ -145,6 +144,14 @@ class RowWriter {
   /// An angle in Q32 as an arc in m, Q32.
   [[nodiscard]] std::int64_t arc(std::int64_t angle) const {
     return shifted(angle, -place_.exponent);
+  }
+
+  /// Gives the locks about axes the speeds with which they turn.
+  void turn_locks() {
+    if (out_ == nullptr) return;
+    LKS_ASSERT(place_.turns_locks);
+    for (JointRow& row : out_->rows.first(out_->locks))
+      if (row.axis >= 3) row.speed = speed_of(row.axis, place_.joint.axes[row.axis].speed);
   }
 
   /// Three locks along the axes of the world, which keep the anchors together.

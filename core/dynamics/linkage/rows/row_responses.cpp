@@ -49,8 +49,10 @@ JointPlace place_now(const JointSystem& system, const LinkedJoint& joint) {
   return place_of(system, joint, joint.frames, &LinkedBody::pose);
 }
 
-JointPlace place_ahead(const JointSystem& system, const LinkedJoint& joint) {
-  return place_of(system, joint, joint.frames_ahead, &LinkedBody::after);
+JointPlace place_ahead(const JointSystem& system, const LinkedJoint& joint, JointFrames& room) {
+  if (!joint.turns_locks) return place_of(system, joint, joint.frames, &LinkedBody::after);
+  room = frames_of(*joint.record, system.step, std::max(joint.substeps_left - 1, 0));
+  return place_of(system, joint, room, &LinkedBody::after);
 }
 
 void linearize(const JointSystem& system, LinkedJoint& joint) {
@@ -67,7 +69,9 @@ void linearize(const JointSystem& system, LinkedJoint& joint) {
 void linearize(JointSystem& system, const JointCluster& cluster) {
   LKS_ASSERT(cluster.substep >= 0 && cluster.substep <= system.step.substeps);
   for (LinkedJoint& joint : system.joints_of(cluster)) {
-    if (joint.turns_locks) set_frames(joint, system.step, system.step.substeps - cluster.substep);
+    joint.substeps_left = static_cast<std::uint8_t>(system.step.substeps - cluster.substep);
+    if (joint.turns_locks)
+      joint.frames = frames_of(*joint.record, system.step, joint.substeps_left);
     linearize(system, joint);
   }
   for (JointGroup& group : system.groups_of(cluster)) {

@@ -1,7 +1,5 @@
 #include "core/dynamics/linkage/system/linked_joint.h"
 
-#include <algorithm>
-
 #include <lockstone/assert.h>
 
 #include "core/dynamics/joint/joint_numbers.h"
@@ -23,41 +21,27 @@ MassShare mass_share(BlockFloat part, BlockFloat whole) {
   return {static_cast<std::uint32_t>(mantissa), 31 + distance};
 }
 
-// The turn of frame B against frame A that locks hold.
-Quat locked_turn(const JointRecord& joint) {
-  RotationVector turn;
-  for (int i = 0; i < 3; ++i)
-    turn[i].raw = std::int64_t{joint.axes[static_cast<std::size_t>(i) + 3].target} << 5;
-  return rotation_from_vector(turn);
-}
-
-// The turn back from the target, in its own axes, to where it is some substeps before the end.
-Quat turn_left(const JointRecord& joint, const TimeStep& step, std::int32_t substeps) {
-  RotationVector turn;
-  for (int i = 0; i < 3; ++i) {
-    const std::int64_t speed = joint.axes[static_cast<std::size_t>(i) + 3].speed;
-    turn[i].raw = raw::round_divide(-speed * substeps * (1 << 12), step.substep_rate());
-  }
-  return rotation_from_vector(turn);
+// `from`, turned in its own axes by angles of Q32 radians.
+Quat turned(const Quat& from, const RotationVector& by) {
+  return normalized(multiply(from, rotation_from_vector(by)));
 }
 
 }  // namespace
 
-void set_frames(LinkedJoint& joint, const TimeStep& step, std::int32_t substeps_left) {
-  const JointRecord& record = *joint.record;
-  joint.frames = {to_matrix(record.orientation_a), to_matrix(record.orientation_b)};
-  joint.turns_locks = turns_locks(record);
+JointFrames frames_of(const JointRecord& joint, const TimeStep& step, std::int32_t substeps_left) {
   LKS_ASSERT(substeps_left >= 0 && substeps_left <= step.substeps);
-  if (locks_turning(record)) {
-    const Quat end = normalized(multiply(record.orientation_a, locked_turn(record)));
-    const auto frame = [&](std::int32_t left) {
-      return to_matrix(normalized(multiply(end, turn_left(record, step, left))));
-    };
-    joint.frames.a = frame(substeps_left);
-    joint.frames_ahead = {frame(std::max(substeps_left - 1, 0)), joint.frames.b};
-  } else {
-    joint.frames_ahead = joint.frames;
+  Quat a = joint.orientation_a;
+  if (locks_turning(joint)) {
+    RotationVector target, left;
+    for (int i = 0; i < 3; ++i) {
+      const JointAxisRecord& axis = joint.axes[static_cast<std::size_t>(i) + 3];
+      target[i].raw = std::int64_t{axis.target} * 32;
+      const std::int64_t way = std::int64_t{axis.speed} * substeps_left * (1 << 12);
+      left[i].raw = raw::round_divide(-way, step.substep_rate());
+    }
+    if (target != RotationVector{} || left != RotationVector{}) a = turned(turned(a, target), left);
   }
+  return {to_matrix(a), to_matrix(joint.orientation_b)};
 }
 
 std::uint64_t list_rows(const JointRows& rows) {
