@@ -67,6 +67,7 @@ extern const Scene k_boats;                                              // wate
 extern const Scene k_explosion;                                          // blast.cpp
 extern const Scene k_one_way;                                            // one_way.cpp
 extern const Scene k_race;                                               // race.cpp
+extern const Scene k_ragdoll_drive;                                      // ragdolls.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp
 

@@ -146,6 +146,14 @@ class RowWriter {
     return shifted(angle, -place_.exponent);
   }
 
+  /// Gives the locks about axes the speeds with which they turn.
+  void turn_locks() {
+    if (out_ == nullptr) return;
+    LKS_ASSERT(place_.turns_locks);
+    for (JointRow& row : out_->rows.first(out_->locks))
+      if (row.axis >= 3) row.speed = speed_of(row.axis, place_.joint.axes[row.axis].speed);
+  }
+
   /// Three locks along the axes of the world, which keep the anchors together.
   void lock_point(const JointArms& arms) {
     if (errors_ != nullptr) {
@@ -161,6 +169,7 @@ class RowWriter {
       row.axis = static_cast<std::uint8_t>(i);
       row.kind = RowKind::lock;
       row.flipped = false;
+      row.speed = 0;
       row.error = bounded(arms.gap[static_cast<int>(i)].raw, k_product_bound);
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
       row.linear_a = row.linear_b = {};

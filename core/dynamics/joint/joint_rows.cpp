@@ -73,6 +73,7 @@ class SixAxisRows {
     };
     if (swings(4)) add_swing(4, negated(raw_of(frame_a_.z)), !cone);
     if (swings(5)) add_swing(5, raw_of(frame_a_.y), !cone);
+    if (place().turns_locks) rows_.turn_locks();
   }
 
   void add_springs_together() {

@@ -38,8 +38,7 @@ struct JointRow : JointDirections {
   RawVec3 response_a{}, response_b{};  // M·angular: of spin
   std::int64_t error = 0;              // m, Q32: of a lock its opening, of a limit the way left
 
-  // A drive's.
-  std::int64_t speed = 0;  // Q50
+  std::int64_t speed = 0;  // that a drive wants, or with which a lock turns, Q50
 };
 
 /// Each axis has at most a lock or limit, and a drive.
@@ -68,6 +67,7 @@ struct JointPlace {
   int exponent;                // of angular rows
   std::uint8_t far = 0;        // axes, a bit each, whose limits get no rows
   bool holds_a_point = false;  // as below
+  bool turns_locks = false;    // the record does
 };
 
 /// The parts of a joint's rows to compute.

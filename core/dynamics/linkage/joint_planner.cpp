@@ -189,7 +189,8 @@ void JointPlanner::make_joint(AddedJoint& added) {
   joint.a = added.a;
   joint.b = added.b;
   joint.rows.rows = system_.take_rows(most_rows(*added.record));
-  joint.frames = {to_matrix(added.record->orientation_a), to_matrix(added.record->orientation_b)};
+  joint.frames = frames_of(*joint.record, system_.step, system_.step.substeps);
+  joint.turns_locks = turns_locks(*joint.record);
   set_masses(joint, system_.bodies[added.a], system_.bodies[added.b]);
   set_drives(system_, joint);
 }

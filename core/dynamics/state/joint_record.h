@@ -75,6 +75,26 @@ struct JointRecord {
   [[nodiscard]] AxisMode mode(std::size_t axis) const { return static_cast<AxisMode>(modes[axis]); }
 };
 
+/// Whether a joint locks all turning: frame B then stays at the rotation vector of the targets.
+[[nodiscard]] inline bool locks_turning(const JointRecord& joint) {
+  for (std::size_t i = 3; i < k_joint_axes; ++i)
+    if (joint.mode(i) != AxisMode::locked || joint.axes[i].is_driven()) return false;
+  return true;
+}
+
+/// Whether it turns frame B in the coming tick.
+[[nodiscard]] inline bool turns_locks(const JointRecord& joint) {
+  const std::int32_t any = joint.axes[3].speed | joint.axes[4].speed | joint.axes[5].speed;
+  return any != 0 && locks_turning(joint);
+}
+
+/// Whether springs, motors or turning locks may give energy.
+[[nodiscard]] inline bool is_driven(const JointRecord& joint) {
+  for (const JointAxisRecord& axis : joint.axes)
+    if (axis.is_driven()) return true;
+  return turns_locks(joint);
+}
+
 /// Of an axis's raws.
 struct JointAxisFormats {
   FieldFormat value, speed, effort;

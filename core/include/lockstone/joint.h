@@ -60,13 +60,18 @@ enum class AxisMode : std::uint8_t {
 /// the frequency and damping that the two bodies alone would have, towards `target`, damped against
 /// `speed`, and `max_effort` = 0 means as strong as need be. Frequencies above a quarter of the
 /// substep rate act as that.
+///
+/// Where all three angular axes are locked without hertz, frame B stays at the rotation vector of
+/// their `target`s, and turns there within the coming tick: it arrives as the tick ends, with
+/// `speed` in the axes of the target, and then `speed` is 0. As strong as need be. Without a speed
+/// a new target closes as an opening of the lock does.
 template <class Value, class Speed, class Effort>
 struct JointAxis {
   AxisMode mode = AxisMode::free;  ///< locked, free or limited
   Value lower{};                   ///< limits, lower ≤ upper: for angles within ±π
   Value upper{};                   ///< as `lower`: m or rad
-  Value target{};  ///< of the spring; of springs about several axes: a rotation vector
-  Speed speed{};   ///< of the motor
+  Value target{};  ///< of the spring; of springs and locks about several axes: a rotation vector
+  Speed speed{};   ///< of the motor, or of locks that turn
   Number hertz{};  ///< 0 … 1000
   Number damping_ratio = Number::from_integer(1);  ///< 0 … 100
   Effort max_effort{};                             ///< ≥ 0, N or N·m
@@ -112,6 +117,10 @@ struct JointDef {
   /// A joint of a kind with its axes locked and free as the kind says, and no drives. Begin with
   /// it: a ball, hinge, slider, weld or wheel whose axes are all free holds nothing and is refused.
   [[nodiscard]] static JointDef of(JointKind kind, BodyHandle a, BodyHandle b);
+
+  /// A distance joint that holds two points no farther apart than `length`, m, and lets them come
+  /// nearer. Set the anchors: frame_a.position, frame_b.position.
+  [[nodiscard]] static JointDef rope(BodyHandle a, BodyHandle b, Length length);
 };
 
 /// A joint as it stands after the last step.

@@ -156,6 +156,13 @@ JointDef JointDef::of(JointKind kind, BodyHandle a, BodyHandle b) {
   return def;
 }
 
+JointDef JointDef::rope(BodyHandle a, BodyHandle b, Length length) {
+  JointDef def = of(JointKind::distance, a, b);
+  def.linear[0].mode = AxisMode::limited;
+  def.linear[0].upper = length;
+  return def;
+}
+
 bool can_join(const BodyRecord& a, const BodyRecord& b) {
   return a.exists() && b.exists() && (a.is_dynamic() || b.is_dynamic());
 }

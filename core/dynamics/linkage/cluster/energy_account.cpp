@@ -43,7 +43,7 @@ void EnergyAccount::open(JointCluster& cluster) {
       !cluster.moves_first && !cluster.is_driven &&
       std::ranges::none_of(system_.bodies_of(cluster), may_be_pushed) &&
       std::ranges::all_of(system_.joints_of(cluster), [&](const LinkedJoint& joint) {
-        return stands(joint.a) && stands(joint.b);
+        return !joint.turns_locks && stands(joint.a) && stands(joint.b);
       });
   cluster.first_gained = 0;
   if (cluster.is_passive) {

@@ -89,8 +89,8 @@ void LockSolver::look_ahead(const JointRun& run, JointGroup& group, bool turn) {
     lockstone::look_ahead(run, system_.bodies[index]);
   for (const std::uint32_t index : system_.joints_of(group)) {
     LinkedJoint& joint = system_.joints[index];
-    const JointPlace place =
-        place_of(system_, joint, system_.bodies[joint.a].after, system_.bodies[joint.b].after);
+    JointFrames frames;
+    const JointPlace place = place_ahead(system_, joint, frames);
     if (!turn) {
       find_errors(place, joint.rows);
       continue;

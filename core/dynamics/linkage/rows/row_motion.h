@@ -15,7 +15,8 @@
 
 namespace lockstone {
 
-/// The relative velocity that a row of the joint sees, Q50, within ±k_row_bound.
+/// The relative velocity that a row of the joint sees, of a lock less the speed with which it
+/// turns; Q50, within ±k_row_bound.
 [[nodiscard]] std::int64_t row_speed(const JointRun& run, const LinkedJoint& joint,
                                      const JointRow& row);
 

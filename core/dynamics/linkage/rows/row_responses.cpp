@@ -28,25 +28,35 @@ void clear_locked_axes(const LinkedBody& body, RawVec3& linear) {
     if (body.record->is_locked(axis)) linear[static_cast<std::size_t>(axis)] = 0;
 }
 
-}  // namespace
-
-JointPlace place_of(const JointSystem& system, const LinkedJoint& joint, const JointPose& a,
-                    const JointPose& b) {
+JointPlace place_of(const JointSystem& system, const LinkedJoint& joint, const JointFrames& frames,
+                    JointPose LinkedBody::*pose) {
   LKS_ASSERT(joint.a < system.bodies.size() && joint.b < system.bodies.size());
   return {*joint.record,
-          joint.frames,
-          a,
-          b,
+          frames,
+          system.bodies[joint.a].*pose,
+          system.bodies[joint.b].*pose,
           system.bodies[joint.a].scale,
           system.bodies[joint.b].scale,
           joint.exponent,
           joint.far,
-          joint.holds_a_point};
+          joint.holds_a_point,
+          joint.turns_locks};
+}
+
+}  // namespace
+
+JointPlace place_now(const JointSystem& system, const LinkedJoint& joint) {
+  return place_of(system, joint, joint.frames, &LinkedBody::pose);
+}
+
+JointPlace place_ahead(const JointSystem& system, const LinkedJoint& joint, JointFrames& room) {
+  if (!joint.turns_locks) return place_of(system, joint, joint.frames, &LinkedBody::after);
+  room = frames_of(*joint.record, system.step, std::max(joint.substeps_left - 1, 0));
+  return place_of(system, joint, room, &LinkedBody::after);
 }
 
 void linearize(const JointSystem& system, LinkedJoint& joint) {
-  fill_rows(place_of(system, joint, system.bodies[joint.a].pose, system.bodies[joint.b].pose),
-            RowParts::all, joint.rows);
+  fill_rows(place_now(system, joint), RowParts::all, joint.rows);
   find_responses(system, joint, joint.rows.count, false);
   const std::int64_t most = raw::round_divide(k_close_way, system.step.substep_rate());
   LKS_ASSERT(joint.rows.locks <= joint.rows.count && most > 0);
@@ -57,8 +67,13 @@ void linearize(const JointSystem& system, LinkedJoint& joint) {
 }
 
 void linearize(JointSystem& system, const JointCluster& cluster) {
-  for (LinkedJoint& joint : system.joints_of(cluster))
+  LKS_ASSERT(cluster.substep >= 0 && cluster.substep <= system.step.substeps);
+  for (LinkedJoint& joint : system.joints_of(cluster)) {
+    joint.substeps_left = static_cast<std::uint8_t>(system.step.substeps - cluster.substep);
+    if (joint.turns_locks)
+      joint.frames = frames_of(*joint.record, system.step, joint.substeps_left);
     linearize(system, joint);
+  }
   for (JointGroup& group : system.groups_of(cluster)) {
     group.is_fresh = false;
     group.is_factored = group.is_factored && group.is_direct;

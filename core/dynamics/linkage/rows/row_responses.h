@@ -7,9 +7,11 @@
 
 namespace lockstone {
 
-/// The inputs of a joint's rows, with its bodies at these poses.
-[[nodiscard]] JointPlace place_of(const JointSystem& system, const LinkedJoint& joint,
-                                  const JointPose& a, const JointPose& b);
+/// The inputs of a joint's rows, with its bodies and frames where they are now.
+[[nodiscard]] JointPlace place_now(const JointSystem& system, const LinkedJoint& joint);
+/// And where they will be after the substep; `room` may hold its frames.
+[[nodiscard]] JointPlace place_ahead(const JointSystem& system, const LinkedJoint& joint,
+                                     JointFrames& room);
 
 /// Makes the rows of a joint where the bodies are now.
 void linearize(const JointSystem& system, LinkedJoint& joint);

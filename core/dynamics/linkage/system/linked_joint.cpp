@@ -4,6 +4,7 @@
 
 #include "core/dynamics/joint/joint_numbers.h"
 #include "core/math/product_sum.h"
+#include "core/math/trig.h"
 
 namespace lockstone {
 namespace {
@@ -20,7 +21,28 @@ MassShare mass_share(BlockFloat part, BlockFloat whole) {
   return {static_cast<std::uint32_t>(mantissa), 31 + distance};
 }
 
+// `from`, turned in its own axes by angles of Q32 radians.
+Quat turned(const Quat& from, const RotationVector& by) {
+  return normalized(multiply(from, rotation_from_vector(by)));
+}
+
 }  // namespace
+
+JointFrames frames_of(const JointRecord& joint, const TimeStep& step, std::int32_t substeps_left) {
+  LKS_ASSERT(substeps_left >= 0 && substeps_left <= step.substeps);
+  Quat a = joint.orientation_a;
+  if (locks_turning(joint)) {
+    RotationVector target, left;
+    for (int i = 0; i < 3; ++i) {
+      const JointAxisRecord& axis = joint.axes[static_cast<std::size_t>(i) + 3];
+      target[i].raw = std::int64_t{axis.target} * 32;
+      const std::int64_t way = std::int64_t{axis.speed} * substeps_left * (1 << 12);
+      left[i].raw = raw::round_divide(-way, step.substep_rate());
+    }
+    if (target != RotationVector{} || left != RotationVector{}) a = turned(turned(a, target), left);
+  }
+  return {to_matrix(a), to_matrix(joint.orientation_b)};
+}
 
 std::uint64_t list_rows(const JointRows& rows) {
   static_assert(5 * k_max_joint_rows < 64);
@@ -63,6 +85,9 @@ void store_impulses(const LinkedJoint& joint, bool moves_first, JointRecord& rec
     return SolverVelocity::from_raw(raw::saturate<std::int32_t>(raw::round_shift(impulse, 30)));
   };
   record.energy_gained = joint.energy_gained;
+  if (joint.turns_locks)
+    for (std::size_t i = 3; i < k_joint_axes; ++i)
+      record.axes[i].speed = 0;
   for (JointAxisRecord& axis : record.axes)
     axis.impulse = axis.drive_impulse = {};
   for (std::size_t i = 0; i < joint.rows.count; ++i) {
@@ -80,6 +105,7 @@ void store_impulses(const LinkedJoint& joint, bool moves_first, JointRecord& rec
 }
 
 bool only_locks(const JointRecord& joint) {
+  if (turns_locks(joint)) return false;
   for (std::size_t i = 0; i < k_joint_axes; ++i) {
     const JointAxisRecord& axis = joint.axes[i];
     if (axis.is_driven()) return false;

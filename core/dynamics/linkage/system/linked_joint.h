@@ -10,6 +10,7 @@
 #include "core/dynamics/joint/joint_rows.h"
 #include "core/dynamics/linkage/system/linked_body.h"
 #include "core/dynamics/state/joint_record.h"
+#include "core/dynamics/state/time_step.h"
 #include "core/math/block_float.h"
 
 namespace lockstone {
@@ -51,7 +52,7 @@ using AxisImpulses = std::array<std::int64_t, k_joint_axes>;
 struct LinkedJoint {
   const JointRecord* record = nullptr;
   JointRows rows;
-  JointFrames frames;
+  JointFrames frames;                        // where the bodies are now
   std::uint32_t a = 0, b = 0;                // in JointSystem::bodies
   std::uint32_t solver_a = 0, solver_b = 0;  // numbers of the bodies in the contact solver
   MassShare share_a, share_b;
@@ -76,8 +77,10 @@ struct LinkedJoint {
   std::uint64_t factored = 0;  // rows that the factor has, as a list of `list_rows`
   std::uint32_t left_out = 0;  // rows, a bit each, without impulses from the factor of loops
   std::array<std::int8_t, k_joint_axes> scales{};  // of its locks in the factor, exponents
-  std::uint8_t far = 0;        // axes whose limits have no rows in this tick, a bit each
-  bool holds_a_point = false;  // and nothing else has rows in this tick
+  std::uint8_t far = 0;            // axes whose limits have no rows in this tick, a bit each
+  bool holds_a_point = false;      // and nothing else has rows in this tick
+  bool turns_locks = false;        // the record does: the frame on body a turns
+  std::uint8_t substeps_left = 0;  // of the tick, where the bodies are now
 };
 
 /// The rows of a joint as a list of digits: the axis of each, and whether it is a lock, a limit or
@@ -87,13 +90,17 @@ struct LinkedJoint {
 /// Sets bodies, masses and levers of a joint. Its rows and drives are left alone.
 void set_masses(LinkedJoint& joint, const LinkedBody& a, const LinkedBody& b);
 
+/// The frames as many substeps before the end of the tick: that on body a turns with its locks.
+[[nodiscard]] JointFrames frames_of(const JointRecord& joint, const TimeStep& step,
+                                    std::int32_t substeps_left);
+
 /// Begins with the impulses of the last tick: those of locks times 2^(shift − 30).
 void load_impulses(LinkedJoint& joint, int shift);
 
 /// Writes the impulses to a record. `moves_first`: positions moved half a substep first.
 void store_impulses(const LinkedJoint& joint, bool moves_first, JointRecord& record);
 
-/// Whether a joint neither limits nor drives any axis.
+/// Whether a joint neither limits nor drives any axis, nor turns locks.
 [[nodiscard]] bool only_locks(const JointRecord& joint);
 
 }  // namespace lockstone

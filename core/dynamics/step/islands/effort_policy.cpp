@@ -89,9 +89,9 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
     const JointLink& link = scene.joint_links[i];
     IslandTally& tally = islands.tally(islands.of(scene, bodies, link));
     if (joints.solver().number_of(i) == JointSolver::k_in_balls) tally.iterates_only = true;
-    const bool is_free =
-        scene.bodies[link.body_a].is_dynamic() && scene.bodies[link.body_b].is_dynamic() &&
-        std::ranges::none_of(scene.joints[link.joint].axes, &JointAxisRecord::is_driven);
+    const bool is_free = scene.bodies[link.body_a].is_dynamic() &&
+                         scene.bodies[link.body_b].is_dynamic() &&
+                         !is_driven(scene.joints[link.joint]);
     if (!is_free) tally.is_carried = true;
     const BodyRecord &a = scene.bodies[link.body_a], &b = scene.bodies[link.body_b];
     tally.least_share =

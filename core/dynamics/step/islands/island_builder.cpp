@@ -94,9 +94,8 @@ void IslandBuilder::find_energy_sources(const ContactScene& scene, const SolverB
   });
   for (const JointLink& link : scene.joint_links) {
     LKS_ASSERT(link.joint < scene.joints.size());
-    const auto& axes = scene.joints[link.joint].axes;
-    const bool is_fed = std::ranges::any_of(axes, &JointAxisRecord::is_driven) ||
-                        moves(link.body_a) || moves(link.body_b);
+    const bool is_fed =
+        is_driven(scene.joints[link.joint]) || moves(link.body_a) || moves(link.body_b);
     for (const std::uint32_t body : {link.body_a, link.body_b}) {
       if (!scene.bodies[body].is_dynamic()) continue;
       IslandTally& own = tally(islands_.of(bodies.number_of(body)));
