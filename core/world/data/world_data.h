@@ -21,6 +21,7 @@
 #include "core/dynamics/state/time_step.h"
 #include "core/dynamics/state/vehicle_record.h"
 #include "core/world/data/rule_tables.h"
+#include "core/world/data/terrain_data.h"
 #include "core/world/debug/profiler.h"
 #include "core/world/derived/body_cache.h"
 #include "core/world/derived/index_set.h"
@@ -145,6 +146,11 @@ struct WorldData : FluidData, RuleTables, VehicleData {
   void visit(VehicleStore, F&& f) const {
     f(std::span(vehicles).first(std::min<std::size_t>(header.vehicle_count, vehicles.size())));
   }
+  template <class F>
+  void visit(TerrainTileStore, F&& f) const {
+    f(std::span(terrain.tiles)
+          .first(std::min<std::size_t>(header.terrain_tile_count, terrain.tiles.size())));
+  }
 
   const WorldDef def;
   const std::shared_ptr<const AssetSet> assets;
@@ -155,6 +161,7 @@ struct WorldData : FluidData, RuleTables, VehicleData {
   std::vector<BodyRecord> bodies;  // by index; size: body capacity
   ContactLists contacts;
   std::vector<JointRecord> joints;  // by index; size: joint capacity
+  TerrainData terrain;
 
   // Derived from the state.
   IndexSet awake;     // bodies that move

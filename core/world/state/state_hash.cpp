@@ -33,11 +33,32 @@ std::uint64_t sum_of_hashes(const WorldData& world) {
   return sum;
 }
 
-// Fluids, rules and vehicles count with the header; where there are none, it is hashed alone.
-std::uint64_t hash_of_header(const WorldData& world) {
-  return hash_record(world.header, 0) + sum_of_hashes<FluidStore>(world) +
-         sum_of_hashes<PairRuleStore>(world) + sum_of_hashes<SurfaceRuleStore>(world) +
-         sum_of_hashes<VehicleStore>(world);
+// Tiles change seldom: their hash is kept.
+std::uint64_t hash_of_tiles(WorldData& world) {
+  TerrainData& terrain = world.terrain;
+  if (!terrain.is_hash_known) terrain.hash = sum_of_hashes<TerrainTileStore>(world);
+  terrain.is_hash_known = true;
+  return terrain.hash;
+}
+
+// Fluids, rules, vehicles and tiles count with the header; where there are none, it is hashed
+// alone.
+std::uint64_t hash_of_header(WorldData& world) {
+  const std::uint64_t own = with_canonical_bytes(world.header, [](auto bytes) {
+    return hash64(bytes.template first<k_hashed_header_bytes>(), 0);
+  });
+  return own + sum_of_hashes<FluidStore>(world) + sum_of_hashes<PairRuleStore>(world) +
+         sum_of_hashes<SurfaceRuleStore>(world) + sum_of_hashes<VehicleStore>(world) +
+         hash_of_tiles(world);
+}
+
+Hash128 hash128_of_header(const WorldData& world) {
+  const Hash128 own = with_canonical_bytes(world.header, [](auto bytes) {
+    return hash128(bytes.template first<k_hashed_header_bytes>(), 0);
+  });
+  return own + sum_of<FluidStore>(world) + sum_of<PairRuleStore>(world) +
+         sum_of<SurfaceRuleStore>(world) + sum_of<VehicleStore>(world) +
+         sum_of<TerrainTileStore>(world);
 }
 
 template <class Store, class State>
@@ -74,9 +95,7 @@ StateHash World::hash() const {
 
 StateHash128 World::hash128() const {
   StateHash128 hash;
-  hash.header = hash_record128(impl_->header, 0) + sum_of<FluidStore>(*impl_) +
-                sum_of<PairRuleStore>(*impl_) + sum_of<SurfaceRuleStore>(*impl_) +
-                sum_of<VehicleStore>(*impl_);
+  hash.header = hash128_of_header(*impl_);
   hash.bodies = sum_of<BodyStore>(*impl_);
   hash.contacts = sum_of<ContactStore>(*impl_);
   hash.joints = sum_of<JointStore>(*impl_);
