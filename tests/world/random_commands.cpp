@@ -1,5 +1,8 @@
 #include "tests/world/random_commands.h"
 
+#include <array>
+#include <span>
+
 #include <gtest/gtest.h>
 
 #include "tests/world/world_fixture.h"
@@ -253,6 +256,14 @@ void CommandDice::fill(DriveVehicle& c) {
   c.controls = {number(one), number(one), number(one), number(one), number(one), 1};
   if (chance(3)) c.controls.gear = static_cast<std::int32_t>(random_.between(-2, 9));
 }
+// No body of a crowd has a height field: the refusals are tested here, edits in terrain_test.cpp.
+void CommandDice::fill(SetHeights& c) {
+  static constexpr std::array<Length, 4> k_heights{Length::from_integer(1)};
+  c.body = body();
+  c.columns = static_cast<std::uint32_t>(random_.below(3));
+  c.rows = static_cast<std::uint32_t>(random_.below(3));
+  c.heights = std::span(k_heights).first(random_.below(5));
+}
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
 }
@@ -315,7 +326,8 @@ WorldDef crowd_def() {
           .joint_capacity = 6,
           .substeps = 2,
           .sleep_ms = 80,
-          .vehicle_capacity = 3};
+          .vehicle_capacity = 3,
+          .terrain_tile_capacity = 2};
 }
 
 World make_crowd(Random& random) {
