@@ -12,15 +12,16 @@ namespace {
 
 using namespace lockstone::literals;
 
-constexpr int k_samples = 41, k_cell_mm = 500, k_half_mm = (k_samples - 1) * k_cell_mm / 2;
+constexpr int k_flat_samples = 41, k_flat_cell_mm = 500,
+              k_flat_half_mm = (k_flat_samples - 1) * k_flat_cell_mm / 2;
 constexpr std::uint64_t k_ground = 0x7e22a1;  // user data of the ground
 
 AssetPtr flat_field() {
-  const std::vector<Length> heights(std::size_t{k_samples} * k_samples);
+  const std::vector<Length> heights(std::size_t{k_flat_samples} * k_flat_samples);
   HeightFieldDef def;
-  def.columns = def.rows = k_samples;
-  def.origin = {millimetres_long(-k_half_mm), {}, millimetres_long(-k_half_mm)};
-  def.cell_x = def.cell_z = millimetres_long(k_cell_mm);
+  def.columns = def.rows = k_flat_samples;
+  def.origin = {millimetres_long(-k_flat_half_mm), {}, millimetres_long(-k_flat_half_mm)};
+  def.cell_x = def.cell_z = millimetres_long(k_flat_cell_mm);
   def.heights = heights;
   const HeightFieldResult made = HeightField::build(def);
   LKS_CHECK(made.ok());
@@ -48,7 +49,7 @@ void build_terrain_edit(World& world, std::uint64_t seed) {
     const Shape shape = i % 3 == 0   ? Shape::box(size, size, size)
                         : i % 3 == 1 ? Shape::capsule(size, size / 2)
                                      : Shape::box(size, size / 2, size);
-    add(world, loose(shape, {millimetres(i % 6 * 2600 - 6500), rounded<Position>(size) + 2_cm,
+    add(world, loose(shape, {millimetres(i % 6 * 2600 - 6500), rounded<Position>(size) + 0.02_m,
                              millimetres(i / 6 * 2600 - 6500)}));
   }
 }
