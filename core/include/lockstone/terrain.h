@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include <lockstone/asset.h>
 #include <lockstone/body.h>
 #include <lockstone/units.h>
 
@@ -27,6 +28,10 @@ struct TerrainSample {
 [[nodiscard]] std::optional<TerrainSample> terrain_sample_of(const World& world, BodyHandle body,
                                                              std::uint32_t column,
                                                              std::uint32_t row);
+
+/// The asset of a body as it is now, for drawing: its parts are those that bodies meet. Null for a
+/// shape complete in itself, or an unknown body. Valid until the next command or load.
+[[nodiscard]] const Asset* asset_of(const World& world, BodyHandle body);
 
 /// The changed tiles of all bodies, of WorldDef::terrain_tile_capacity.
 [[nodiscard]] std::uint32_t terrain_tile_count(const World& world);

@@ -243,6 +243,11 @@ std::optional<TerrainSample> terrain_sample_of(const World& world, BodyHandle bo
   return TerrainSample{tile.heights[place], !is_cell || tile.is_hole(place), tile.surfaces[place]};
 }
 
+const Asset* asset_of(const World& world, BodyHandle body) {
+  const WorldData& data = WorldTerrain::of(world);
+  return data.find(body) == nullptr ? nullptr : data.cache.asset(body.index);
+}
+
 std::uint32_t terrain_tile_count(const World& world) {
   return WorldTerrain::of(world).header.terrain_tile_count;
 }
