@@ -28,7 +28,7 @@ class EditedSlots final : public EditedHeightFields {
  public:
   explicit EditedSlots(std::uint32_t capacity) : slots_(capacity) {}
 
-  [[nodiscard]] std::uint32_t capacity() const override {
+  [[nodiscard]] std::uint32_t slots() const override {
     return static_cast<std::uint32_t>(slots_.size());
   }
   const Asset* set(std::uint32_t slot, const Asset& base,

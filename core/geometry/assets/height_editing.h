@@ -16,7 +16,7 @@ class EditedHeightFields {
   EditedHeightFields(const EditedHeightFields&) = delete;
   EditedHeightFields& operator=(const EditedHeightFields&) = delete;
 
-  [[nodiscard]] virtual std::uint32_t capacity() const = 0;
+  [[nodiscard]] virtual std::uint32_t slots() const = 0;
   /// Makes the one in a slot, in place of another: `base` with these tiles (EditedCells). Both must
   /// outlive it. Allocates nothing.
   virtual const Asset* set(std::uint32_t slot, const Asset& base,

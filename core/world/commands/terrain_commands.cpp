@@ -19,7 +19,7 @@ using geometry::HeightTile;
 using geometry::HeightTileKey;
 
 std::span<const TerrainTileRecord> tiles_of(const WorldData& world) {
-  return std::span(world.terrain.tiles).first(world.header.terrain_tile_count);
+  return std::span(world.tiles).first(world.header.terrain_tile_count);
 }
 
 /// A rectangle of samples or cells, `end` beyond its last one.
@@ -166,10 +166,9 @@ void change_tiles(WorldData& world, const HeightEdit& edit) {
   edit.for_each_changed([&](const HeightTile& tile, bool, bool is_original) {
     const HeightTileKey key = tile.key();
     if (is_original)
-      remove_records(world.terrain.tiles, count,
-                     [&](const HeightTile& old) { return old.key() == key; });
+      remove_records(world.tiles, count, [&](const HeightTile& old) { return old.key() == key; });
     else
-      LKS_CHECK(set_record(world.terrain.tiles, count, tile));
+      LKS_CHECK(set_record(world.tiles, count, tile));
   });
 }
 
@@ -200,7 +199,7 @@ bool has_room_for(const WorldData& world, const SetHeights& command) {
         if (is_new) ++count;
         if (is_original) --count;
       });
-  return count <= world.terrain.tiles.size();
+  return count <= world.tiles.size();
 }
 
 Status CommandExecutor::execute(const SetHeights& command) {

@@ -13,16 +13,18 @@ namespace lockstone {
 
 struct WorldData;
 
+/// The terrain of a world.
 struct TerrainData {
   std::vector<TerrainTileRecord> tiles;  // canonical state: the first header.terrain_tile_count
   // Derived: the assets of bodies with tiles, and these bodies; a slot is a place in the list.
-  std::unique_ptr<geometry::EditedHeightFields> edited;
-  std::vector<std::uint32_t> bodies;
-  std::uint64_t hash = 0;  // derived: of all tiles, where it is known
-  bool is_hash_known = false;
+  std::unique_ptr<geometry::EditedHeightFields> edited_fields;
+  std::vector<std::uint32_t> edited_bodies;
+  std::uint64_t tile_hash = 0;  // derived: of all tiles, where it is known
+  bool is_tile_hash_known = false;
 
   /// No function but this allocates.
-  void make_room(std::uint32_t tile_capacity, std::uint32_t body_capacity, const AssetSet& assets);
+  void make_terrain_room(std::uint32_t tile_capacity, std::uint32_t body_capacity,
+                         const AssetSet& assets);
 };
 
 /// Brings all that is derived of the tiles up to date, bounds of bodies included: after every

@@ -67,7 +67,17 @@ struct VehicleData {
   const VehiclePhase* vehicle_phase = nullptr;  // derived: null only without vehicles
 };
 
-struct WorldData : FluidData, RuleTables, VehicleData {
+/// The tables of these stores; the header counts the records that exist.
+[[nodiscard]] inline std::span<const VehicleRecord> table_of(const VehicleData& data,
+                                                             VehicleStore) {
+  return data.vehicles;
+}
+[[nodiscard]] inline std::span<const TerrainTileRecord> table_of(const TerrainData& data,
+                                                                 TerrainTileStore) {
+  return data.tiles;
+}
+
+struct WorldData : FluidData, RuleTables, VehicleData, TerrainData {
   /// No function but this allocates.
   [[gnu::cold]] WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
@@ -142,14 +152,10 @@ struct WorldData : FluidData, RuleTables, VehicleData {
   void visit(SurfaceRuleStore, F&& f) const {
     f(surface_rules_of(*this, header));
   }
-  template <class F>
-  void visit(VehicleStore, F&& f) const {
-    f(std::span(vehicles).first(std::min<std::size_t>(header.vehicle_count, vehicles.size())));
-  }
-  template <class F>
-  void visit(TerrainTileStore, F&& f) const {
-    f(std::span(terrain.tiles)
-          .first(std::min<std::size_t>(header.terrain_tile_count, terrain.tiles.size())));
+  template <class Store, class F>
+  void visit(Store, F&& f) const {
+    const auto table = table_of(*this, Store{});
+    f(table.first(std::min<std::size_t>(header.*Store::k_count, table.size())));
   }
 
   const WorldDef def;
@@ -161,7 +167,6 @@ struct WorldData : FluidData, RuleTables, VehicleData {
   std::vector<BodyRecord> bodies;  // by index; size: body capacity
   ContactLists contacts;
   std::vector<JointRecord> joints;  // by index; size: joint capacity
-  TerrainData terrain;
 
   // Derived from the state.
   IndexSet awake;     // bodies that move

@@ -59,7 +59,7 @@ void StateLoader::load(const WorldHeader& loaded, State&& state) {
   for (std::uint32_t i = 0; i < loaded.vehicle_count; ++i)
     state.template read<VehicleStore>(i, world_.vehicles[i]);
   for (std::uint32_t i = 0; i < loaded.terrain_tile_count; ++i)
-    state.template read<TerrainTileStore>(i, world_.terrain.tiles[i]);
+    state.template read<TerrainTileStore>(i, world_.tiles[i]);
   const bool has_tiles = loaded.terrain_tile_count != 0 || world_.header.terrain_tile_count != 0;
   world_.header = loaded;
   world_.vehicle_phase = linked_vehicle_phase;

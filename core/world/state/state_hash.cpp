@@ -35,10 +35,9 @@ std::uint64_t sum_of_hashes(const WorldData& world) {
 
 // Tiles change seldom: their hash is kept.
 std::uint64_t hash_of_tiles(WorldData& world) {
-  TerrainData& terrain = world.terrain;
-  if (!terrain.is_hash_known) terrain.hash = sum_of_hashes<TerrainTileStore>(world);
-  terrain.is_hash_known = true;
-  return terrain.hash;
+  if (!world.is_tile_hash_known) world.tile_hash = sum_of_hashes<TerrainTileStore>(world);
+  world.is_tile_hash_known = true;
+  return world.tile_hash;
 }
 
 // Fluids, rules, vehicles and tiles count with the header; where there are none, it is hashed

@@ -74,13 +74,13 @@ WorldFault StateValidator::fault_of_joints() const {
 
 WorldFault StateValidator::fault_of_terrain() const {
   for (std::uint32_t i = 0; i < world_.header.terrain_tile_count; ++i) {
-    const TerrainTileRecord& tile = world_.terrain.tiles[i];
+    const TerrainTileRecord& tile = world_.tiles[i];
     if (tile.owner >= world_.header.body_limit || !world_.bodies[tile.owner].exists())
       return {"a tile of no body", i};
     const Asset* asset = world_.assets->find(world_.bodies[tile.owner].asset);
     if (asset == nullptr || !is_valid_tile(*asset, tile)) return {"a tile's record", i};
     if (world_.cache.asset(tile.owner) == asset) return {"the asset of a changed terrain", i};
-    if (i > 0 && world_.terrain.tiles[i - 1].key() >= tile.key()) return {"the order of tiles", i};
+    if (i > 0 && world_.tiles[i - 1].key() >= tile.key()) return {"the order of tiles", i};
   }
   return {};
 }

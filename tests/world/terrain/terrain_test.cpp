@@ -1,4 +1,4 @@
-// Edits of terrain: what they change, and what stays.
+// Edits of terrain and their effects on bodies, queries and states.
 #include <array>
 #include <vector>
 
