@@ -23,7 +23,7 @@ struct WorldHeader {
   std::uint8_t surface_rule_count = 0;
   std::uint8_t pair_rule_count = 0;
   std::uint8_t vehicle_count = 0;
-  // Not hashed: the records that it counts are.
+  // Hashed only where it is not zero (k_hashed_header_bytes).
   std::uint32_t terrain_tile_count = 0;
   std::uint32_t reserved = 0;
 
