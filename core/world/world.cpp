@@ -23,8 +23,9 @@ bool is_valid(const WorldDef& def) {
   return is_within(def.body_capacity, 1, 1U << 20) && is_within(def.pair_capacity, 1, 1U << 24) &&
          is_within(def.contact_capacity, 1, 1U << 24) && def.joint_capacity <= 1U << 20 &&
          def.converged_contacts <= 1U << 16 && def.vehicle_capacity <= k_max_vehicles &&
-         is_within(def.tick_rate, 10, 480) && is_within(def.substeps, 1, 16) &&
-         def.sleep_ms <= 60'000 && def.sleep_distance >= Length::from_ratio(1, 1000) &&
+         def.terrain_tile_capacity <= k_max_terrain_tiles && is_within(def.tick_rate, 10, 480) &&
+         is_within(def.substeps, 1, 16) && def.sleep_ms <= 60'000 &&
+         def.sleep_distance >= Length::from_ratio(1, 1000) &&
          def.sleep_distance <= Length::from_integer(1) && is_valid_gravity(def.gravity) &&
          def.speed_limit >= Velocity::from_integer(1) && def.speed_limit <= k_speed_limit &&
          def.broad_phase <= BroadPhaseKind::sweep_and_prune;
@@ -33,7 +34,7 @@ bool is_valid(const WorldDef& def) {
 }  // namespace
 
 std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
-  std::array<std::byte, 80> buffer{};
+  std::array<std::byte, 84> buffer{};
   ByteWriter writer(buffer);
   writer.put(k_simulation_abi);
   writer.put(def.body_capacity);
@@ -49,7 +50,8 @@ std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
     writer.put(def.gravity[i].raw);
   writer.put(def.speed_limit.raw);
   writer.put(assets);
-  if (def.vehicle_capacity != 0) writer.put(def.vehicle_capacity);
+  if (def.vehicle_capacity != 0 || def.terrain_tile_capacity != 0) writer.put(def.vehicle_capacity);
+  if (def.terrain_tile_capacity != 0) writer.put(def.terrain_tile_capacity);
   LKS_CHECK(writer.ok());
   return hash64(writer.written());
 }

@@ -1,4 +1,6 @@
 // Every command has the same effect through the C interface as in the core.
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "tests/bindings/twin_worlds.h"
@@ -231,6 +233,39 @@ TEST_F(CommandsThroughC, AVehicleGivesTheSameState) {
   EXPECT_EQ(view.wheels[3].load, vehicle_of(*world_, box_)->wheels[3].load.raw);
   expect_same(world_->apply(SetVehicle{box_, {}}), lks_set_vehicle(twin_, box, nullptr), "removed");
   EXPECT_EQ(lks_vehicle_get(twin_, box, &view), LKS_INVALID_ARGUMENT);
+}
+
+TEST_F(CommandsThroughC, TerrainGivesTheSameState) {
+  const BodyHandle ground =
+      add(MotionType::static_body, {ShapeKind::height_field, {}, field_}, 20, 0);
+  const lks_body raw_ground = c::id_of(ground);
+  const std::array<Length, 4> heights{1_m, 2_m, 3_m, -1_m};
+  std::array<lks_length, 4> raw_heights{};
+  for (std::size_t i = 0; i < 4; ++i)
+    raw_heights[i] = heights[i].raw;
+  const std::array<std::uint8_t, 1> hole{1};
+  const lks_height_rectangle corner{1, 0, 2, 2};
+  const SetHeights command{
+      .body = ground, .column = 1, .columns = 2, .rows = 2, .heights = heights, .holes = hole};
+  expect_same(world_->apply(command),
+              lks_set_heights(twin_, raw_ground, &corner, raw_heights.data(), hole.data(), nullptr),
+              "heights");
+  const lks_height_rectangle beyond{2, 0, 2, 0x40000000};
+  EXPECT_EQ(lks_set_heights(twin_, raw_ground, &beyond, raw_heights.data(), nullptr, nullptr),
+            LKS_INVALID_ARGUMENT);
+  EXPECT_EQ(lks_set_heights(twin_, c::id_of(box_), &corner, raw_heights.data(), nullptr, nullptr),
+            LKS_NOT_FOUND);
+  lks_length height = 0;
+  std::uint32_t is_hole = 0, surface = 0, tiles = 0;
+  ASSERT_EQ(lks_terrain_sample_get(twin_, raw_ground, 1, 0, &height, &is_hole, &surface), LKS_OK);
+  EXPECT_EQ(height, Length(1_m).raw);
+  EXPECT_EQ(is_hole, 1U);
+  EXPECT_EQ(surface, 255U);
+  EXPECT_EQ(lks_terrain_sample_get(twin_, raw_ground, 3, 0, &height, &is_hole, &surface),
+            LKS_INVALID_ARGUMENT);
+  ASSERT_EQ(lks_terrain_tile_count(twin_, &tiles), LKS_OK);
+  EXPECT_EQ(tiles, 1U);
+  step(20);
 }
 
 TEST_F(CommandsThroughC, AFluidGivesTheSameState) {

@@ -8,6 +8,7 @@
 #include <lockstone/literals.h>
 #include <lockstone/world.h>
 
+#include "tests/support/sample_assets.h"
 #include "tools/bindings/c/convert.h"
 
 namespace lockstone {
@@ -20,6 +21,7 @@ class TwinWorlds : public ::testing::Test {
     def_.substeps = 5;
     def_.sleep_ms = 700;
     def_.vehicle_capacity = 2;
+    def_.terrain_tile_capacity = 3;
     def_.gravity = {{}, Acceleration::from_integer(-9), Acceleration::from_integer(1)};
   }
 
@@ -37,7 +39,13 @@ class TwinWorlds : public ::testing::Test {
     std::uint64_t id = 0;
     EXPECT_EQ(lks_assets_add_hull(assets_, raw_points.data(), raw_points.size(), 64, &id), LKS_OK);
     EXPECT_EQ(id, hull_.value);
-    world_.emplace(World::create(def_, std::make_shared<AssetSet>(std::vector{hull})).value());
+    const AssetPtr field = test::sample_height_field();
+    field_ = field->id();
+    const std::vector<std::byte> bytes = field->canonical_bytes();
+    EXPECT_EQ(lks_assets_add_bytes(assets_, bytes.data(), bytes.size(), &id), LKS_OK);
+    EXPECT_EQ(id, field_.value);
+    world_.emplace(
+        World::create(def_, std::make_shared<AssetSet>(std::vector{hull, field})).value());
     make_twin();
   }
 
@@ -91,6 +99,7 @@ class TwinWorlds : public ::testing::Test {
 
   WorldDef def_;
   AssetId hull_;
+  AssetId field_;
   std::optional<World> world_;
   lks_world* twin_ = nullptr;
   lks_assets* assets_ = nullptr;
@@ -104,6 +113,7 @@ class TwinWorlds : public ::testing::Test {
     raw.substeps = def_.substeps;
     raw.sleep_ms = def_.sleep_ms;
     raw.vehicle_capacity = def_.vehicle_capacity;
+    raw.terrain_tile_capacity = def_.terrain_tile_capacity;
     raw.gravity = c::raw_of(def_.gravity);
     EXPECT_EQ(lks_world_create(&raw, assets_, &twin_), LKS_OK) << lks_last_error();
     std::uint64_t hash = 0;

@@ -75,6 +75,7 @@ class Company {
       def.contact_capacity += more.contact_capacity;
       def.joint_capacity += more.joint_capacity;
       def.vehicle_capacity += more.vehicle_capacity;
+      def.terrain_tile_capacity += more.terrain_tile_capacity;
       add_assets(*other);
     }
     return World::create(def, std::make_shared<const AssetSet>(std::move(assets))).value();
@@ -172,8 +173,8 @@ TEST_P(EverySceneBesideOthers, GoesTheWayItGoesAlone) {
   static const std::vector<const Scene*> all = scenes_with_an_end();
   const Scene& scene = *find_scene(GetParam());
   if (const std::uint32_t ticks = all_pairs_ticks(); ticks != 0) {
-    const auto later = std::find_if(all.begin(), all.end(),
-                                    [&](const Scene* other) { return other >= &scene; });
+    const auto later =
+        std::find_if(all.begin(), all.end(), [&](const Scene* other) { return other >= &scene; });
     EXPECT_NO_FATAL_FAILURE(expect_alike(scene, {later, all.end()}, Order::first, ticks));
     EXPECT_NO_FATAL_FAILURE(expect_alike(scene, {all.begin(), later}, Order::last, ticks));
     return;

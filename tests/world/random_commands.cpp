@@ -1,7 +1,11 @@
 #include "tests/world/random_commands.h"
 
+#include <array>
+#include <span>
+
 #include <gtest/gtest.h>
 
+#include "tests/support/sample_assets.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone::test {
@@ -253,6 +257,13 @@ void CommandDice::fill(DriveVehicle& c) {
   c.controls = {number(one), number(one), number(one), number(one), number(one), 1};
   if (chance(3)) c.controls.gear = static_cast<std::int32_t>(random_.between(-2, 9));
 }
+void CommandDice::fill(SetHeights& c) {
+  static constexpr std::array<Length, 4> k_heights{Length::from_integer(1)};
+  c.body = chance(2) ? body() : world_.body_at(13);  // the terrain of a crowd
+  c.column = static_cast<std::uint32_t>(random_.below(3));
+  if (goes_wild()) c.columns = static_cast<std::uint32_t>(random_.below(4));
+  c.heights = std::span(k_heights).subspan(random_.below(2), 1);
+}
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
 }
@@ -315,11 +326,16 @@ WorldDef crowd_def() {
           .joint_capacity = 6,
           .substeps = 2,
           .sleep_ms = 80,
-          .vehicle_capacity = 3};
+          .vehicle_capacity = 3,
+          .terrain_tile_capacity = 2};
+}
+
+std::shared_ptr<const AssetSet> crowd_assets() {
+  return std::make_shared<const AssetSet>(std::vector{sample_height_field()});
 }
 
 World make_crowd(Random& random) {
-  World world = World::create(crowd_def()).value();
+  World world = World::create(crowd_def(), crowd_assets()).value();
   add_ground(world);
   for (int i = 0; i < 12; ++i) {
     BodyDef def =
@@ -331,6 +347,11 @@ World make_crowd(Random& random) {
     if (i == 10) def.allow_sleep = false;
     add(world, def);
   }
+  BodyDef terrain;
+  terrain.motion = MotionType::static_body;
+  terrain.shape = crowd_assets()->all()[0]->shape();
+  terrain.position.y = -9_m;
+  add(world, terrain);
   for (std::uint32_t i = 1; i < 4; ++i) {
     JointDef def = JointDef::of(i == 1 ? JointKind::distance : JointKind::six_axis,
                                 world.body_at(i), world.body_at(i + 3));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <lockstone/world.h>
@@ -62,6 +63,7 @@ class CommandDice {
 /// A small crowd on a ground that soon falls asleep, with joints, kinematic bodies and a trigger.
 /// Its stores have little room left.
 [[nodiscard]] WorldDef crowd_def();
+[[nodiscard]] std::shared_ptr<const AssetSet> crowd_assets();
 [[nodiscard]] World make_crowd(Random& random);
 
 /// The reports of the last step: events and joint events, as numbers.

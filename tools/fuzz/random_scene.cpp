@@ -58,6 +58,7 @@ WorldDef random_def(Random& random) {
   def.body_capacity = 28;
   def.joint_capacity = 24;
   def.vehicle_capacity = 3;
+  def.terrain_tile_capacity = 12;
   def.pair_capacity = chance(random, 10) ? 20 : 2048;
   def.contact_capacity = chance(random, 10) ? 10 : 1024;
   def.tick_rate = pick(random, k_rates);
@@ -407,6 +408,28 @@ void drive_vehicles(World& world, std::uint64_t seed) {
   (void)world.apply(command);
 }
 
+// Edits of height fields, drawn apart: some are refused.
+void drive_terrain(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 11)));
+  if (!chance(random, 6)) return;
+  const BodyHandle body = any_body(world, random);
+  if (!terrain_sample_of(world, body, 0, 0)) return;
+  SetHeights command{.body = body, .column = random.below(9), .row = random.below(9)};
+  command.columns = 1 + random.below(5);
+  command.rows = 1 + random.below(5);
+  std::vector<Length> heights(std::size_t{command.columns} * command.rows);
+  const auto middle = static_cast<std::int32_t>(random.between(-1000, 1000));
+  for (Length& height : heights)
+    height =
+        scenes::millimetres_long(middle + static_cast<std::int32_t>(random.between(-300, 300)));
+  std::vector<std::uint8_t> holes(std::size_t{command.columns - 1} * (command.rows - 1));
+  for (std::uint8_t& hole : holes)
+    hole = chance(random, 3) ? 1 : 0;
+  if (!chance(random, 4)) command.heights = heights;
+  if (chance(random, 3)) command.holes = holes;
+  (void)world.apply(command);
+}
+
 // Rules about pairs, drawn apart.
 void drive_rules(World& world, std::uint64_t seed) {
   Random random(mix(~seed ^ mix(world.tick() + 7)));
@@ -480,6 +503,7 @@ void RandomScene::drive(World& world) const {
   drive_rules(world, seed_);
   drive_vehicles(world, seed_);
   drive_turning_locks(world, seed_);
+  drive_terrain(world, seed_);
   Random random(mix(seed_ ^ mix(world.tick() + 2)));
   if (!chance(random, 4)) return;
   const int commands = random.between(1, 3);

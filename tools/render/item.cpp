@@ -115,7 +115,7 @@ void add_body(const World& world, BodyHandle body, const Style& style, std::vect
   const Look look = style(body, view);
   if (!look.visible || view.shape.kind == ShapeKind::half_space) return;
   Pieces pieces(items, blank_item(body, view, look), place_of(view));
-  const Asset* asset = world.assets()->find(view.shape.asset);
+  const Asset* asset = asset_of(world, body);
   const geometry::Polytope* polytope = asset == nullptr ? nullptr : asset->polytope();
   if (asset == nullptr || polytope != nullptr) {
     pieces.add(view.shape, polytope, place_of(view), nullptr);

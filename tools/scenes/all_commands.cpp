@@ -161,6 +161,10 @@ Command sample(Tag<SetVehicle>, BodyHandle body, Random&) {
 Command sample(Tag<DriveVehicle>, BodyHandle body, Random&) {
   return DriveVehicle{body, {.throttle = Unit::from_integer(1)}};
 }
+Command sample(Tag<SetHeights>, BodyHandle body, Random&) {
+  static constexpr std::array<Length, 1> k_height{Length::from_integer(1)};
+  return SetHeights{.body = body, .heights = k_height};
+}
 Command sample(Tag<WakeBody>, BodyHandle body, Random&) {
   return WakeBody{body};
 }

@@ -66,6 +66,7 @@ extern const Scene k_arch, k_cards;                                      // maso
 extern const Scene k_boats;                                              // water.cpp
 extern const Scene k_explosion;                                          // blast.cpp
 extern const Scene k_one_way;                                            // one_way.cpp
+extern const Scene k_terrain_edit;                                       // terrain_edit.cpp
 extern const Scene k_race;                                               // race.cpp
 extern const Scene k_ragdoll_drive;                                      // ragdolls.cpp
 extern const Scene k_sleep;                                              // sleep.cpp

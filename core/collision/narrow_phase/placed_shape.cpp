@@ -26,24 +26,6 @@ WorldBox half_space_box(const PlacedShape& placed) {
   return box;
 }
 
-// The bounds of a turned box: the middle turned, the half extents by the magnitudes of the axes.
-WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& local) {
-  const auto middle = [](Length low, Length high) {
-    return Position::from_raw((std::int64_t{low.raw} + high.raw) << 11);
-  };
-  const Vec3<Position> centre{middle(local.lower.x, local.upper.x),
-                              middle(local.lower.y, local.upper.y),
-                              middle(local.lower.z, local.upper.z)};
-  const Vec3<Length> half{(local.upper.x - local.lower.x + Length::from_raw(1)) / 2,
-                          (local.upper.y - local.lower.y + Length::from_raw(1)) / 2,
-                          (local.upper.z - local.lower.z + Length::from_raw(1)) / 2};
-  const Vec3<Position> at = placed.origin + rotate(placed.rotation, centre);
-  LKS_ASSERT(half.x >= Length{} && half.y >= Length{} && half.z >= Length{});
-  const Vec3<Position> reach =
-      rounded<Position>(world_half_extents({ShapeKind::box, half, {}}, placed.rotation));
-  return {at - reach, at + reach};
-}
-
 // The least and the greatest of the vertices along each axis, and their rounding error.
 WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytope) {
   constexpr int k_bits = geometry::k_fine_bits - Position::frac_bits;
@@ -95,12 +77,30 @@ Transform shape_pose(const Asset* asset, const Transform& body_pose) {
   return {apply({body_pose.position, orientation}, -solid->centre), orientation};
 }
 
+// The bounds of a turned box: the middle turned, the half extents by the magnitudes of the axes.
+WorldBox world_box(const PlacedShape& placed, const geometry::LocalBounds& local) {
+  const auto middle = [](Length low, Length high) {
+    return Position::from_raw((std::int64_t{low.raw} + high.raw) << 11);
+  };
+  const Vec3<Position> centre{middle(local.lower.x, local.upper.x),
+                              middle(local.lower.y, local.upper.y),
+                              middle(local.lower.z, local.upper.z)};
+  const Vec3<Length> half{(local.upper.x - local.lower.x + Length::from_raw(1)) / 2,
+                          (local.upper.y - local.lower.y + Length::from_raw(1)) / 2,
+                          (local.upper.z - local.lower.z + Length::from_raw(1)) / 2};
+  const Vec3<Position> at = placed.origin + rotate(placed.rotation, centre);
+  LKS_ASSERT(half.x >= Length{} && half.y >= Length{} && half.z >= Length{});
+  const Vec3<Position> reach =
+      rounded<Position>(world_half_extents({ShapeKind::box, half, {}}, placed.rotation));
+  return {at - reach, at + reach};
+}
+
 WorldBox world_box(const PlacedShape& placed) {
   if (placed.shape.kind == ShapeKind::half_space) return half_space_box(placed);
   if (placed.asset != nullptr) {
     const geometry::Polytope* polytope = placed.asset->polytope();
     return polytope != nullptr ? vertex_box(placed, *polytope)
-                               : turned_box(placed, placed.asset->bounds());
+                               : world_box(placed, placed.asset->bounds());
   }
   const Vec3<Position> reach = rounded<Position>(world_half_extents(placed.shape, placed.rotation));
   LKS_ASSERT(reach.x >= Position{} && reach.y >= Position{} && reach.z >= Position{});

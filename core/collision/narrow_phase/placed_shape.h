@@ -45,6 +45,9 @@ struct WorldBox {
 };
 [[nodiscard]] WorldBox world_box(const PlacedShape& placed);
 
+/// The same of a box in the shape's frame.
+[[nodiscard]] WorldBox world_box(const PlacedShape& placed, const geometry::LocalBounds& box);
+
 /// Radius about the centre of mass of a sphere that holds the shape (0 for shapes without mass
 /// distribution), and of one that the shape holds.
 [[nodiscard]] Length bounding_radius(const Shape& shape, const Asset* asset);

@@ -3,6 +3,7 @@
 #include <lockstone/height_field.h>
 
 #include "core/geometry/assets/asset_frame.h"
+#include "core/geometry/assets/height_editing.h"
 #include "core/geometry/assets/height_field_data.h"
 #include "core/geometry/mesh_contact/mesh_kernels.h"
 
@@ -188,6 +189,10 @@ const geometry::LocalBounds& HeightField::bounds() const {
 
 const geometry::MeshKernels* HeightField::mesh_kernels() const {
   return &geometry::mesh_kernels();
+}
+
+const geometry::HeightEditing* HeightField::height_editing() const {
+  return &geometry::height_editing();
 }
 
 }  // namespace lockstone

@@ -7,23 +7,6 @@
 namespace lockstone::geometry {
 namespace {
 
-/// The sample beyond each edge of a half: the neighbour's sample there, and the neighbour's cell.
-struct Neighbour {
-  GridPoint cell;
-  GridPoint apex;
-};
-
-constexpr std::array<std::array<Neighbour, 3>, 2> k_neighbours{
-    {{{{{-1, 0}, {-1, 0}}, {{0, 1}, {1, 2}}, {{0, 0}, {1, 0}}}},
-     {{{{0, 0}, {0, 1}}, {{1, 0}, {2, 1}}, {{0, -1}, {0, -1}}}}}};
-
-constexpr std::array<std::array<GridPoint, 3>, 2> k_corners{
-    {{{{0, 0}, {0, 1}, {1, 1}}}, {{{0, 0}, {1, 1}, {1, 0}}}}};
-
-GridPoint operator+(const GridPoint& a, const GridPoint& b) {
-  return {a.i + b.i, a.j + b.j};
-}
-
 /// The number of blocks of 2^shift that `cells` take.
 std::int32_t blocks_of(std::int32_t cells, int shift) {
   return (cells + (1 << shift) - 1) >> shift;
@@ -94,24 +77,6 @@ bool HeightFieldData::is_void(const GridPoint& cell) const {
   if (holes.empty()) return false;
   const std::uint32_t number = cell_number(cell);
   return ((holes[number >> 3] >> (number & 7)) & 1) != 0;
-}
-
-TriangleVertices HeightFieldData::triangle(const GridPoint& cell, int half) const {
-  const auto& corners = k_corners[static_cast<std::size_t>(half)];
-  return {vertex(cell + corners[0]), vertex(cell + corners[1]), vertex(cell + corners[2])};
-}
-
-std::uint8_t HeightFieldData::active_edges(const GridPoint& cell, int half) const {
-  const TriangleVertices vertices = triangle(cell, half);
-  unsigned active = 0;
-  for (int edge = 0; edge < 3; ++edge) {
-    const Neighbour& beyond =
-        k_neighbours[static_cast<std::size_t>(half)][static_cast<std::size_t>(edge)];
-    const bool is_active = is_void(cell + beyond.cell) ||
-                           is_edge_active(vertices, edge, vertex(cell + beyond.apex), flat_cosine);
-    active |= is_active ? 1U << edge : 0U;
-  }
-  return static_cast<std::uint8_t>(active);
 }
 
 const Surface* HeightFieldData::surface(const GridPoint& cell) const {

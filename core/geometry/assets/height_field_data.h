@@ -91,17 +91,15 @@ struct HeightFieldData {
   }
   [[nodiscard]] Length x_of(std::int32_t i) const { return origin_x + cell_x * i; }
   [[nodiscard]] Length z_of(std::int32_t j) const { return origin_z + cell_z * j; }
-  [[nodiscard]] Vec3<Length> vertex(const GridPoint& sample) const {
-    return {x_of(sample.i), height(sample), z_of(sample.j)};
-  }
-
   /// Whether the cell is outside the grid or a hole.
   [[nodiscard]] bool is_void(const GridPoint& cell) const;
 
-  /// half 0 or 1.
-  [[nodiscard]] TriangleVertices triangle(const GridPoint& cell, int half) const;
-  [[nodiscard]] std::uint8_t active_edges(const GridPoint& cell, int half) const;
   [[nodiscard]] const Surface* surface(const GridPoint& cell) const;
+  /// Bounds of the heights of a block of the pyramid.
+  [[nodiscard]] HeightRange block_range(int level, const GridPoint& at) const {
+    return pyramid.block(level, at);
+  }
+  [[nodiscard]] const HeightFieldData& grid() const { return *this; }
 };
 
 /// The canonical bytes.

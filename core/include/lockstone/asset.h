@@ -16,6 +16,7 @@
 namespace lockstone {
 
 namespace geometry {
+struct HeightEditing;
 struct LocalBounds;
 struct MeshKernels;
 struct Polytope;
@@ -62,6 +63,9 @@ class Asset {
 
   /// The kernels that collide with its triangles; null for an asset without triangles.
   [[nodiscard]] virtual const geometry::MeshKernels* mesh_kernels() const { return nullptr; }
+
+  /// The functions that change its heights in a world; null for an asset that is no height field.
+  [[nodiscard]] virtual const geometry::HeightEditing* height_editing() const { return nullptr; }
 
   /// Calls the visitor for every part whose bounds meet `region` (asset frame, closed), in
   /// ascending order of part.

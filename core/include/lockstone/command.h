@@ -2,6 +2,7 @@
 // and drives dispatch, so that a command cannot be half added.
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <variant>
 
@@ -9,6 +10,7 @@
 #include <lockstone/fluid.h>
 #include <lockstone/joint.h>
 #include <lockstone/rules.h>
+#include <lockstone/terrain.h>
 #include <lockstone/vehicle.h>
 
 namespace lockstone {
@@ -258,6 +260,23 @@ struct DriveVehicle {
   VehicleControls controls{};
 };
 
+/// Changes `columns` × `rows` samples of the height field of a static body, from sample (column,
+/// row) on, and the (columns − 1) · (rows − 1) cells between them, all row by row. An empty list
+/// leaves its part as it is. The lists are read before `World::apply` returns. Wakes the bodies on
+/// these cells. not_found for a body without a height field; invalid_argument for a rectangle
+/// beyond the grid or lists of other sizes; capacity_exhausted beyond
+/// WorldDef::terrain_tile_capacity.
+struct SetHeights {
+  BodyHandle body{};
+  std::uint32_t column = 0;
+  std::uint32_t row = 0;
+  std::uint32_t columns = 1;
+  std::uint32_t rows = 1;
+  std::span<const Length> heights{};              ///< m, y in the frame of the asset, ±512 m
+  std::span<const std::uint8_t> holes{};          ///< not 0 where there is a hole
+  std::span<const std::uint8_t> cell_surfaces{};  ///< as of HeightFieldDef; without effect in holes
+};
+
 // clang-format off
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
@@ -269,7 +288,7 @@ struct DriveVehicle {
   X(SetEvents) \
   X(SetMotionType) X(SetShape) X(SetMassData) X(SetEnabled) \
   X(SetFluid) X(SetPairRule) X(SetSurfaceRule) X(SetOneWay) \
-  X(SetVehicle) X(DriveVehicle)
+  X(SetVehicle) X(DriveVehicle) X(SetHeights)
 // clang-format on
 
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name

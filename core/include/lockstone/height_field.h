@@ -89,6 +89,7 @@ class HeightField final : public Asset {
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
   [[nodiscard]] const geometry::LocalBounds& bounds() const override;
   [[nodiscard]] const geometry::MeshKernels* mesh_kernels() const override;
+  [[nodiscard]] const geometry::HeightEditing* height_editing() const override;
   void visit_parts(const geometry::LocalBounds& region,
                    geometry::PartVisitor& visitor) const override;
   void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
@@ -96,6 +97,7 @@ class HeightField final : public Asset {
                           geometry::WayPartVisitor& visitor) const override;
   void visit_parts_near(const Vec3<Length>& point, Length reach,
                         geometry::NearPartVisitor& visitor) const override;
+  [[nodiscard]] const geometry::HeightFieldData& data() const { return *data_; }
 
  private:
   HeightField(AssetId id, std::unique_ptr<const geometry::HeightFieldData> data);

@@ -27,6 +27,7 @@
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
 #include <lockstone/tasks.h>
+#include <lockstone/terrain.h>
 #include <lockstone/vector_math.h>
 #include <lockstone/vehicle.h>
 
@@ -54,6 +55,8 @@ struct WorldDef {
   Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};  ///< m/s²
   Velocity speed_limit = k_speed_limit;  ///< of every body, 1 … 500 m/s
   std::uint32_t vehicle_capacity = 0;    ///< 0 … k_max_vehicles
+  /// Changed tiles of height fields, of 4 × 4 samples each: 0 … k_max_terrain_tiles.
+  std::uint32_t terrain_tile_capacity = 0;
 
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
 };
@@ -352,6 +355,7 @@ class World {
   friend class WorldFluids;
   friend class WorldRules;
   friend class WorldVehicles;
+  friend class WorldTerrain;
   friend class RollbackHistory;
   friend Transform pose_of(const World& world, BodyHandle body);
   explicit World(std::unique_ptr<Impl> impl);

@@ -159,6 +159,7 @@ void CommandExecutor::change_shape(const SetShape& command, const Asset* asset) 
   world_.joint_registry.forget_impulses_of(body);
   world_.contacts.forget_manifolds();
   world_.cache.set_asset(body, asset);
+  if (forget_terrain_of(world_, body)) refresh_terrain(world_);
   set_recycling_pose(record);
   begin_rest(record, world_.sleep_flags.rest_rules());
   world_.refresh(body);

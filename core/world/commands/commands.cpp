@@ -152,6 +152,7 @@ Status BodyRegistry::destroy(BodyHandle body) {
   BodyRecord empty;
   empty.generation = record->generation;
   world_.bodies[index] = empty;
+  if (forget_terrain_of(world_, index)) refresh_terrain(world_);
   free_hint_ = std::min(free_hint_, index);
   return Status::ok;
 }

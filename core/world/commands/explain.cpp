@@ -243,6 +243,7 @@ Refusal World::explain(const WorldDef& def) {
   find.within("contact_capacity", def.contact_capacity, 1U, 1U << 24);
   find.within("joint_capacity", def.joint_capacity, 0U, 1U << 20);
   find.within("vehicle_capacity", def.vehicle_capacity, 0U, k_max_vehicles);
+  find.within("terrain_tile_capacity", def.terrain_tile_capacity, 0U, k_max_terrain_tiles);
   find.within("converged_contacts", def.converged_contacts, 0U, 1U << 16);
   find.within("tick_rate", std::uint32_t{def.tick_rate}, 10U, 480U, "ticks/s");
   find.within("substeps", std::uint32_t{def.substeps}, 1U, 16U);

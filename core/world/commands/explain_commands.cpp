@@ -14,6 +14,7 @@
 #include "core/world/commands/joint_checks.h"
 #include "core/world/commands/refusal_finder.h"
 #include "core/world/commands/rule_changes.h"
+#include "core/world/commands/terrain_changes.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/phases/vehicle/vehicle_phase.h"
 #include "core/world/world_impl.h"
@@ -219,6 +220,17 @@ class CommandExplainer::Properties {
     on_.find.require(find_vehicle(on_.impl, c.chassis.index) != nullptr, "chassis",
                      "a body without wheels", "the chassis of a vehicle");
   }
+  void of(const SetHeights& c) {
+    if (on_.body(c.body) == nullptr) return;
+    on_.find.require(terrain_of(on_.impl, c.body.index) != nullptr, "body",
+                     "a body without a height field", "one with a height field");
+    if (on_.find.done()) return;
+    require_valid(c);
+    if (on_.find.done()) return;
+    on_.find.require(has_room_for(on_.impl, c), "body", "more changed tiles than there is room for",
+                     "one whose change fits WorldDef::terrain_tile_capacity, " +
+                         std::to_string(on_.impl.def.terrain_tile_capacity));
+  }
   void of(const SetOneWay& c) {
     const BodyRecord* record = on_.body(c.body);
     if (record == nullptr) return;
@@ -248,6 +260,24 @@ class CommandExplainer::Properties {
   }
 
  private:
+  void require_valid(const SetHeights& c) {
+    const HeightsFault fault = fault_of(on_.impl, c);
+    const std::string samples = std::to_string(std::size_t{c.columns} * c.rows);
+    const auto require = [&](HeightsFault bad, std::string_view field, std::size_t value,
+                             std::string_view rule) {
+      on_.find.require(fault != bad, field, std::to_string(value), rule);
+    };
+    require(HeightsFault::columns, "columns", c.columns, "1 or more, within the grid from column");
+    require(HeightsFault::rows, "rows", c.rows, "1 or more, within the grid from row");
+    require(HeightsFault::heights, "heights", c.heights.size(),
+            "none, or columns × rows (" + samples + ") heights of ±512 m");
+    require(HeightsFault::holes, "holes", c.holes.size(),
+            "none, or as many as there are cells between the samples");
+    require(HeightsFault::cell_surfaces, "cell_surfaces", c.cell_surfaces.size(),
+            "none, or as many surfaces of the asset as there are cells between the samples");
+    require(HeightsFault::nothing, "heights", 0, "given, or holes or surfaces");
+  }
+
   Subjects& on_;
 };
 

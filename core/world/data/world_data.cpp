@@ -27,6 +27,7 @@ WorldData::WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet>
   header.gravity = definition.gravity;
   rests.reserve(definition.body_capacity);
   vehicles.resize(definition.vehicle_capacity);
+  make_terrain_room(definition.terrain_tile_capacity, definition.body_capacity, *assets);
 }
 
 const BodyRecord* WorldData::find(BodyHandle body) const {

@@ -21,6 +21,7 @@
 #include "core/dynamics/state/time_step.h"
 #include "core/dynamics/state/vehicle_record.h"
 #include "core/world/data/rule_tables.h"
+#include "core/world/data/terrain_data.h"
 #include "core/world/debug/profiler.h"
 #include "core/world/derived/body_cache.h"
 #include "core/world/derived/index_set.h"
@@ -66,7 +67,17 @@ struct VehicleData {
   const VehiclePhase* vehicle_phase = nullptr;  // derived: null only without vehicles
 };
 
-struct WorldData : FluidData, RuleTables, VehicleData {
+/// The tables of these stores; the header counts the records that exist.
+[[nodiscard]] inline std::span<const VehicleRecord> table_of(const VehicleData& data,
+                                                             VehicleStore) {
+  return data.vehicles;
+}
+[[nodiscard]] inline std::span<const TerrainTileRecord> table_of(const TerrainData& data,
+                                                                 TerrainTileStore) {
+  return data.tiles;
+}
+
+struct WorldData : FluidData, RuleTables, VehicleData, TerrainData {
   /// No function but this allocates.
   [[gnu::cold]] WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
@@ -141,9 +152,10 @@ struct WorldData : FluidData, RuleTables, VehicleData {
   void visit(SurfaceRuleStore, F&& f) const {
     f(surface_rules_of(*this, header));
   }
-  template <class F>
-  void visit(VehicleStore, F&& f) const {
-    f(std::span(vehicles).first(std::min<std::size_t>(header.vehicle_count, vehicles.size())));
+  template <class Store, class F>
+  void visit(Store, F&& f) const {
+    const auto table = table_of(*this, Store{});
+    f(table.first(std::min<std::size_t>(header.*Store::k_count, table.size())));
   }
 
   const WorldDef def;

@@ -174,6 +174,10 @@ bool write_next_state(const WorldData& world, const ComputedBodies& computed,
   for (const SurfaceRuleRecord& rule : surface_rules_of(world, header))
     to.put(rule);
   LKS_ASSERT(header.vehicle_count == 0);  // such a world is computed whole
+  world.visit(TerrainTileStore{}, [&](auto tiles) {
+    for (const TerrainTileRecord& tile : tiles)
+      to.put(tile);
+  });
   next.after.set_size(to.size());
   std::memcpy(next.after.out().data(), &header, sizeof(header));
   return true;

@@ -32,7 +32,8 @@ void StateChanges::find(const WorldData& world, const NativeState<WorldStores>& 
   any_ = concern_all_ =
       world.header.tick != before.header.tick || world.header.gravity != before.header.gravity ||
       has_changed<FluidStore>(world, before) || has_changed<PairRuleStore>(world, before) ||
-      has_changed<SurfaceRuleStore>(world, before) || has_changed<VehicleStore>(world, before);
+      has_changed<SurfaceRuleStore>(world, before) || has_changed<VehicleStore>(world, before) ||
+      has_changed<TerrainTileStore>(world, before);
   if (concern_all_) return;
   find_bodies(world, before);
   find_contacts(world, before);

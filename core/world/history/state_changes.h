@@ -18,8 +18,8 @@ class StateChanges {
 
   void find(const WorldData& world, const NativeState<WorldStores>& before);
 
-  /// Whether something differs that concerns all bodies, or no body that moves: tick or gravity; a
-  /// contact or a joint of bodies that stand still.
+  /// Whether something differs that concerns all bodies, or no body that moves: tick, gravity or
+  /// terrain; a contact or a joint of bodies that stand still.
   [[nodiscard]] bool concern_all() const { return concern_all_; }
 
   /// Whether any record differs, be it that of an empty slot.

@@ -109,8 +109,11 @@ void Waking::disturb(std::uint32_t body) {
 void Waking::disturb_around(std::uint32_t body) {
   stir_around(body);
   if (flags_.asleep_count() == 0 || world_.bodies[body].moves()) return;
-  if (!world_.broad_phase.has(body)) return;
-  const Bounds here = world_.broad_phase.bounds(body);
+  if (world_.broad_phase.has(body)) disturb_within(world_.broad_phase.bounds(body), body);
+}
+
+void Waking::disturb_within(const Bounds& here, std::uint32_t body) {
+  if (flags_.asleep_count() == 0) return;
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },
       [&](std::uint32_t other) {

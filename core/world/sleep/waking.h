@@ -32,6 +32,9 @@ class Waking {
   /// The body is new at its place: the bodies that sleep there wake.
   void disturb_around(std::uint32_t body);
 
+  /// Something of the body changed within `here`: the bodies that sleep there wake.
+  void disturb_within(const Bounds& here, std::uint32_t body);
+
   /// Wakes the body at once; the next `wake_listed` wakes the bodies connected to it.
   void list(std::uint32_t body);
   /// For a sleeping body that was hit during a step: it wakes by the next `wake_listed`.

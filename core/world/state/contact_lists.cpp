@@ -14,6 +14,12 @@ void ContactLists::replace(std::vector<std::uint32_t>& ids) {
   remembers_manifolds_ = true;
 }
 
+void ContactLists::forget_manifolds_of(std::uint32_t body) {
+  if (!remembers_manifolds_) return;
+  for (std::uint32_t i = 0; i < active_; ++i)
+    if (store_[i].body_a == body || store_[i].body_b == body) manifold_ids_[i] = k_no_manifold;
+}
+
 void ContactLists::drop_active_of(std::uint32_t body) {
   const std::span<ContactRecord> all(store_.data(), active_);
   const auto end = std::remove_if(all.begin(), all.end(), [&](const ContactRecord& contact) {

@@ -57,6 +57,8 @@ class ContactLists {
 
   [[nodiscard]] bool remembers_manifolds() const { return remembers_manifolds_; }
   void forget_manifolds() { remembers_manifolds_ = false; }
+  /// Of the active contacts of a body.
+  void forget_manifolds_of(std::uint32_t body);
   /// By active contact, while manifolds are remembered.
   [[nodiscard]] std::span<const std::uint32_t> manifold_ids() const { return manifold_ids_; }
 

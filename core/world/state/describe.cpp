@@ -39,6 +39,13 @@ class Namer {
   [[nodiscard]] std::string name_of(VehicleStore, std::uint32_t, const VehicleRecord& v) const {
     return end(v.chassis);
   }
+  [[nodiscard]] std::string name_of(TerrainTileStore, std::uint32_t,
+                                    const TerrainTileRecord& tile) const {
+    const auto at = [](std::int32_t of_tile) {
+      return std::to_string(of_tile * geometry::HeightTile::k_side);
+    };
+    return end(tile.owner) + ", samples from " + at(tile.column) + ", " + at(tile.row);
+  }
   [[nodiscard]] std::string name_of(SurfaceRuleStore, std::uint32_t,
                                     const SurfaceRuleRecord& r) const {
     return std::to_string(r.tag_a) + '-' + std::to_string(r.tag_b);

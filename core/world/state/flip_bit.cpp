@@ -23,6 +23,7 @@ bool flip_in_contact(WorldData& world, std::uint64_t object, std::string_view fi
 bool flip_in_header(WorldData& world, std::string_view field, unsigned bit) {
   world.hashes.bodies.clear();  // there may be fewer records than before
   world.hashes.joints.clear();
+  world.is_tile_hash_known = false;
   return flip_in(world.header, field, bit);
 }
 
@@ -51,6 +52,10 @@ bool World::flip_bit(std::string_view store, std::uint64_t object, std::string_v
     return flip_in(world.surface_rules[index], field, bit);
   if (store == VehicleStore::k_name && object < world.header.vehicle_count)
     return flip_in(world.vehicles[index], field, bit);
+  if (store == TerrainTileStore::k_name && object < world.header.terrain_tile_count) {
+    world.is_tile_hash_known = false;
+    return flip_in(world.tiles[index], field, bit);
+  }
   return false;
 }
 

@@ -58,6 +58,9 @@ void StateLoader::load(const WorldHeader& loaded, State&& state) {
     state.template read<SurfaceRuleStore>(i, world_.surface_rules[i]);
   for (std::uint32_t i = 0; i < loaded.vehicle_count; ++i)
     state.template read<VehicleStore>(i, world_.vehicles[i]);
+  for (std::uint32_t i = 0; i < loaded.terrain_tile_count; ++i)
+    state.template read<TerrainTileStore>(i, world_.tiles[i]);
+  const bool has_tiles = loaded.terrain_tile_count != 0 || world_.header.terrain_tile_count != 0;
   world_.header = loaded;
   world_.vehicle_phase = linked_vehicle_phase;
   world_.fluid_phase = linked_fluid_phase;
@@ -74,6 +77,7 @@ void StateLoader::load(const WorldHeader& loaded, State&& state) {
     take_contacts();
   }
   world_.refresh_moved();
+  if (has_tiles) refresh_terrain(world_);
   world_.broad_phase.settle();
   world_.joint_graph.forget_awake_list();
   if (!same_bodies || !same_links) world_.joint_registry.rebuild();
@@ -203,6 +207,7 @@ void StateLoader::rebuild_from(std::span<const ContactRecord> contacts) {
     world_.cache.set_asset(i, world_.assets->find(world_.bodies[i].asset));
     world_.refresh(i);
   }
+  refresh_terrain(world_);
   world_.contacts.adopt(contacts, [&](std::uint32_t body) { return world_.awake.has(body); });
   world_.broad_phase.settle();
   world_.joint_registry.rebuild();

@@ -10,6 +10,7 @@
 #include "core/dynamics/state/fluid_record.h"
 #include "core/dynamics/state/joint_record.h"
 #include "core/dynamics/state/rule_records.h"
+#include "core/dynamics/state/terrain_record.h"
 #include "core/dynamics/state/vehicle_record.h"
 
 namespace lockstone {
@@ -21,6 +22,8 @@ namespace lockstone {
 [[nodiscard]] Status validate(const PairRuleRecord& record);
 [[nodiscard]] Status validate(const SurfaceRuleRecord& record);
 [[nodiscard]] Status validate(const VehicleRecord& record);
+/// With the asset of its body.
+[[nodiscard]] bool is_valid_tile(const Asset& asset, const TerrainTileRecord& tile);
 
 /// The same with the bodies that a contact is between, or that a joint holds.
 [[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a,

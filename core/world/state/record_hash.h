@@ -24,6 +24,7 @@ inline constexpr std::uint64_t k_fluid_domain = 4;
 inline constexpr std::uint64_t k_pair_rule_domain = 5;
 inline constexpr std::uint64_t k_surface_rule_domain = 6;
 inline constexpr std::uint64_t k_vehicle_domain = 7;
+inline constexpr std::uint64_t k_terrain_tile_domain = 8;
 
 /// Calls `hash(bytes)` with the canonical bytes: little-endian in field order, which on a
 /// little-endian machine is the memory.

@@ -1,7 +1,8 @@
 // Saving. The native snapshot is a copy of the used parts of the stores. The canonical one is:
 //   u32 magic "LKSW" · u16 version · u16 reserved · u64 config hash
 //   header record · body records · contact records · joint records · fluid records ·
-//   pair rule records · surface rule records · vehicle records · u64 XXH3 of all before
+//   pair rule records · surface rule records · vehicle records · terrain tile records · u64 XXH3 of
+//   all before
 // all little-endian, each record its fields in the order of its list.
 
 #include <lockstone/hash.h>

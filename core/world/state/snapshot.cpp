@@ -180,6 +180,14 @@ Status validate(const VehicleRecord& record) {
   return same == record && has_gear && has_wheels ? Status::ok : Status::malformed;
 }
 
+// One that is as in the asset would be another record of the same terrain.
+bool is_valid_tile(const Asset& asset, const TerrainTileRecord& tile) {
+  const geometry::HeightEditing* editing = asset.height_editing();
+  if (editing == nullptr) return false;
+  const geometry::HeightFieldData& field = editing->data_of(asset);
+  return editing->is_tile(field, tile) && tile != editing->original(field, tile.key());
+}
+
 Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b) {
   const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
   const bool known = (record.flags & ~k_all_contact_flags) == 0;
@@ -290,6 +298,17 @@ Status SnapshotView::check(VehicleStore) const {
   return Status::ok;
 }
 
+Status SnapshotView::check(TerrainTileStore) const {
+  for (std::uint32_t i = 0; i < header.terrain_tile_count; ++i) {
+    const auto tile = record<TerrainTileStore>(i);
+    if (tile.owner >= header.body_limit || !body(tile.owner).exists()) return Status::malformed;
+    const Asset* asset = assets_->find(body(tile.owner).asset);
+    if (asset == nullptr || !is_valid_tile(*asset, tile)) return Status::malformed;
+    if (i > 0 && record<TerrainTileStore>(i - 1).key() >= tile.key()) return Status::malformed;
+  }
+  return Status::ok;
+}
+
 Status SnapshotView::check(BodyStore) const {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     const BodyRecord record = body(i);
@@ -300,7 +319,7 @@ Status SnapshotView::check(BodyStore) const {
 }
 
 Status SnapshotView::check() const {
-  if (!is_valid_gravity(header.gravity)) return Status::malformed;
+  if (!is_valid_gravity(header.gravity) || header.reserved != 0) return Status::malformed;
   Status status = Status::ok;
   WorldStores::for_each([&](auto store) {
     if (status == Status::ok) status = check(store);

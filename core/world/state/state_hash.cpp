@@ -33,11 +33,36 @@ std::uint64_t sum_of_hashes(const WorldData& world) {
   return sum;
 }
 
-// Fluids, rules and vehicles count with the header; where there are none, it is hashed alone.
-std::uint64_t hash_of_header(const WorldData& world) {
-  return hash_record(world.header, 0) + sum_of_hashes<FluidStore>(world) +
-         sum_of_hashes<PairRuleStore>(world) + sum_of_hashes<SurfaceRuleStore>(world) +
-         sum_of_hashes<VehicleStore>(world);
+// Of the header; the end of it counts only where it is not zero.
+template <class Hash>
+auto hash_alone(const WorldHeader& header, Hash&& hash) {
+  const bool has_end = header.terrain_tile_count != 0 || header.reserved != 0;
+  return with_canonical_bytes(header, [&](auto bytes) {
+    return has_end ? hash(bytes) : hash(bytes.template first<k_hashed_header_bytes>());
+  });
+}
+
+// Tiles change seldom: their hash is kept.
+std::uint64_t hash_of_tiles(WorldData& world) {
+  if (!world.is_tile_hash_known) world.tile_hash = sum_of_hashes<TerrainTileStore>(world);
+  world.is_tile_hash_known = true;
+  return world.tile_hash;
+}
+
+// Fluids, rules, vehicles and tiles count with the header; where there are none, it is hashed
+// alone.
+std::uint64_t hash_of_header(WorldData& world) {
+  const std::uint64_t own = hash_alone(world.header, [](auto bytes) { return hash64(bytes, 0); });
+  return own + sum_of_hashes<FluidStore>(world) + sum_of_hashes<PairRuleStore>(world) +
+         sum_of_hashes<SurfaceRuleStore>(world) + sum_of_hashes<VehicleStore>(world) +
+         hash_of_tiles(world);
+}
+
+Hash128 hash128_of_header(const WorldData& world) {
+  const Hash128 own = hash_alone(world.header, [](auto bytes) { return hash128(bytes, 0); });
+  return own + sum_of<FluidStore>(world) + sum_of<PairRuleStore>(world) +
+         sum_of<SurfaceRuleStore>(world) + sum_of<VehicleStore>(world) +
+         sum_of<TerrainTileStore>(world);
 }
 
 template <class Store, class State>
@@ -74,9 +99,7 @@ StateHash World::hash() const {
 
 StateHash128 World::hash128() const {
   StateHash128 hash;
-  hash.header = hash_record128(impl_->header, 0) + sum_of<FluidStore>(*impl_) +
-                sum_of<PairRuleStore>(*impl_) + sum_of<SurfaceRuleStore>(*impl_) +
-                sum_of<VehicleStore>(*impl_);
+  hash.header = hash128_of_header(*impl_);
   hash.bodies = sum_of<BodyStore>(*impl_);
   hash.contacts = sum_of<ContactStore>(*impl_);
   hash.joints = sum_of<JointStore>(*impl_);

@@ -72,6 +72,19 @@ WorldFault StateValidator::fault_of_joints() const {
   return {};
 }
 
+WorldFault StateValidator::fault_of_terrain() const {
+  for (std::uint32_t i = 0; i < world_.header.terrain_tile_count; ++i) {
+    const TerrainTileRecord& tile = world_.tiles[i];
+    if (tile.owner >= world_.header.body_limit || !world_.bodies[tile.owner].exists())
+      return {"a tile of no body", i};
+    const Asset* asset = world_.assets->find(world_.bodies[tile.owner].asset);
+    if (asset == nullptr || !is_valid_tile(*asset, tile)) return {"a tile's record", i};
+    if (world_.cache.asset(tile.owner) == asset) return {"the asset of a changed terrain", i};
+    if (i > 0 && world_.tiles[i - 1].key() >= tile.key()) return {"the order of tiles", i};
+  }
+  return {};
+}
+
 WorldFault StateValidator::fault_of_rules() const {
   const auto fault_of = [](auto rules) -> WorldFault {
     for (std::uint32_t i = 0; i < rules.size(); ++i) {
@@ -91,6 +104,7 @@ WorldFault StateValidator::fault_of_rules() const {
         (i > 0 && world_.vehicles[i - 1].chassis >= vehicle.chassis))
       return {"a vehicle's record", i};
   }
+  if (const WorldFault fault = fault_of_terrain()) return fault;
   const WorldFault fault = fault_of(pair_rules_of(world_, world_.header));
   return fault ? fault : fault_of(surface_rules_of(world_, world_.header));
 }
@@ -111,7 +125,9 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
       return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
     sleepers += body.is_asleep() ? 1U : 0U;
-    if (world_.cache.asset(i) != world_.assets->find(body.asset)) return {"the asset of a body", i};
+    const Asset* asset = world_.cache.asset(i);  // of a changed terrain not that of the set
+    if ((asset == nullptr ? AssetId{} : asset->id()) != body.asset)
+      return {"the asset of a body", i};
     if (world_.cache.rotation(i) != to_matrix(body.orientation))
       return {"the rotation of a body", i};
     if (is_enabled(body) && world_.broad_phase.bounds(i) != world_.bounds_of(i))

@@ -26,6 +26,7 @@ class StateValidator {
   [[nodiscard]] WorldFault fault_of_contacts(std::span<const ContactRecord> records) const;
   [[nodiscard]] WorldFault fault_of_joints() const;
   [[nodiscard]] WorldFault fault_of_rules() const;
+  [[nodiscard]] WorldFault fault_of_terrain() const;
   [[nodiscard]] WorldFault fault_of_derived_bodies() const;
   [[nodiscard]] WorldFault fault_of_derived_contacts() const;
   [[nodiscard]] WorldFault fault_of_derived_joints() const;

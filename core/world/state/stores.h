@@ -16,6 +16,7 @@
 #include "core/dynamics/state/fluid_record.h"
 #include "core/dynamics/state/joint_record.h"
 #include "core/dynamics/state/rule_records.h"
+#include "core/dynamics/state/terrain_record.h"
 #include "core/dynamics/state/vehicle_record.h"
 #include "core/world/state/record_codec.h"
 #include "core/world/state/record_hash.h"
@@ -62,7 +63,7 @@ struct FluidStore {
   static constexpr bool k_has_key = false;
 };
 
-/// The same holds of the rules about pairs, and of vehicles.
+/// The same holds of the rules about pairs, of vehicles and of tiles of terrain.
 struct PairRuleStore {
   using Record = PairRuleRecord;
   static constexpr const char* k_name = "pair_rule";
@@ -87,6 +88,15 @@ struct VehicleStore {
   static constexpr auto k_count = &WorldHeader::vehicle_count;
   static constexpr auto k_capacity = &WorldDef::vehicle_capacity;
   static constexpr std::uint64_t k_domain = k_vehicle_domain;
+  static constexpr bool k_has_key = true;
+};
+
+struct TerrainTileStore {
+  using Record = TerrainTileRecord;
+  static constexpr const char* k_name = "terrain_tile";
+  static constexpr auto k_count = &WorldHeader::terrain_tile_count;
+  static constexpr auto k_capacity = &WorldDef::terrain_tile_capacity;
+  static constexpr std::uint64_t k_domain = k_terrain_tile_domain;
   static constexpr bool k_has_key = true;
 };
 
@@ -134,7 +144,7 @@ struct StoreList {
 };
 
 using WorldStores = StoreList<BodyStore, ContactStore, JointStore, FluidStore, PairRuleStore,
-                              SurfaceRuleStore, VehicleStore>;
+                              SurfaceRuleStore, VehicleStore, TerrainTileStore>;
 
 /// The state as it lies in memory: header, then the stores. Returns the bytes written, 0 when `out`
 /// is too small.

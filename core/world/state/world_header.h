@@ -1,6 +1,7 @@
 // The part of a world's state that stands before its stores.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <lockstone/units.h>
@@ -22,6 +23,9 @@ struct WorldHeader {
   std::uint8_t surface_rule_count = 0;
   std::uint8_t pair_rule_count = 0;
   std::uint8_t vehicle_count = 0;
+  // Hashed only where it is not zero (k_hashed_header_bytes).
+  std::uint32_t terrain_tile_count = 0;
+  std::uint32_t reserved = 0;
 
   friend bool operator==(const WorldHeader&, const WorldHeader&) = default;
 };
@@ -37,8 +41,13 @@ constexpr void visit_fields(WorldHeader& header, F&& f) {
   visit_value("surface_rule_count", "", header.surface_rule_count, f);
   visit_value("pair_rule_count", "", header.pair_rule_count, f);
   visit_value("vehicle_count", "", header.vehicle_count, f);
+  visit_value("terrain_tile_count", "", header.terrain_tile_count, f);
+  visit_value("reserved", "", header.reserved, f);
 }
 
 static_assert(visited_bytes<WorldHeader>() == sizeof(WorldHeader), "a field is missing");
+
+/// A world without tiles is hashed as before there were any.
+inline constexpr std::size_t k_hashed_header_bytes = offsetof(WorldHeader, terrain_tile_count);
 
 }  // namespace lockstone

@@ -118,6 +118,11 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_drive_vehicle(world, 0, NULL));
   NULLED(lks_vehicle_get(NULL, 0, NULL));
   NULLED(lks_vehicle_get(world, 0, NULL));
+  NULLED(lks_set_heights(NULL, 0, NULL, NULL, NULL, NULL));
+  NULLED(lks_set_heights(world, 0, NULL, NULL, NULL, NULL));
+  NULLED(lks_terrain_sample_get(NULL, 0, 0, 0, NULL, NULL, NULL));
+  NULLED(lks_terrain_tile_count(NULL, NULL));
+  NULLED(lks_terrain_tile_count(world, NULL));
   NULLED(lks_set_pair_rule(NULL, 0, 0, 1, NULL));
   NULLED(lks_pair_rule_get(NULL, 0, 0, NULL, NULL, NULL));
   NULLED(lks_set_surface_rule(NULL, 0, 0, NULL));

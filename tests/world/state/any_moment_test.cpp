@@ -72,7 +72,7 @@ class Trio {
   void save_and_load() {
     const Bytes canonical = test::save(plain_, SnapshotKind::canonical);
     const Bytes native = test::save(plain_, SnapshotKind::native);
-    loaded_ = World::create(test::crowd_def()).value();
+    loaded_ = World::create(test::crowd_def(), test::crowd_assets()).value();
     ASSERT_EQ(loaded_.load(SnapshotKind::canonical, canonical), Status::ok)
         << "tick " << plain_.tick();
     EXPECT_FALSE(loaded_.find_fault()) << loaded_.find_fault().what;

@@ -122,7 +122,8 @@ void flip_each_field(const std::vector<std::byte>& saved, std::size_t offset, Ch
     const std::string field = std::string(name) + suffix;
     if (field == "shape_kind" || field == "body_limit" || field == "contact_count" ||
         field == "joint_limit" || field == "fluid_limit" || field == "pair_rule_count" ||
-        field == "surface_rule_count" || field == "vehicle_count") {
+        field == "surface_rule_count" || field == "vehicle_count" ||
+        field == "terrain_tile_count") {
       return;
     }
     const auto original = integer;

@@ -27,6 +27,7 @@
 #include "lockstone_c/servers.h"
 #include "lockstone_c/sessions.h"
 #include "lockstone_c/state.h"
+#include "lockstone_c/terrain.h"
 #include "lockstone_c/transports.h"
 #include "lockstone_c/units.h"
 #include "lockstone_c/vehicles.h"

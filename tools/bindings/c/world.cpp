@@ -48,6 +48,7 @@ lks_world_def raw_def(const WorldDef& def) {
   raw.speed_limit = def.speed_limit.raw;
   raw.converged_contacts = def.converged_contacts;
   raw.vehicle_capacity = def.vehicle_capacity;
+  raw.terrain_tile_capacity = def.terrain_tile_capacity;
   return raw;
 }
 
@@ -68,6 +69,7 @@ WorldDef world_def_of(const lks_world_def* from) {
   def.speed_limit = Velocity::from_raw(raw.speed_limit);
   def.converged_contacts = raw.converged_contacts;
   def.vehicle_capacity = raw.vehicle_capacity;
+  def.terrain_tile_capacity = raw.terrain_tile_capacity;
   const Refusal refusal = World::explain(def);
   if (refusal) throw failure(Status::invalid_argument, refusal);
   return def;

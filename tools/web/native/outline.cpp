@@ -73,7 +73,7 @@ class Outline final : public geometry::PartVisitor {
 
 Outline outline_of(const World& world, BodyHandle body) {
   const Shape shape = world.body(body).shape;
-  const Asset* asset = world.assets()->find(shape.asset);
+  const Asset* asset = asset_of(world, body);
   const Mat3 straight = to_matrix(Quat{});
   Outline outline;
   if (asset == nullptr)

@@ -140,7 +140,7 @@ export const lks_i32x3 = { $bytes: 12, x: 0, y: 4, z: 8 } as const;
 export const lks_quat = { $bytes: 16, x: 0, y: 4, z: 8, w: 12 } as const;
 export const lks_pose = { $bytes: 40, position: 0, orientation: 24 } as const;
 export const lks_shape = { $bytes: 24, kind: 0, size: 4, asset: 16 } as const;
-export const lks_world_def = { $bytes: 80, size: 0, body_capacity: 4, pair_capacity: 8, contact_capacity: 12, joint_capacity: 16, tick_rate: 20, substeps: 24, sleep_ms: 28, sleep_distance: 32, broad_phase: 36, gravity: 40, speed_limit: 64, converged_contacts: 72, vehicle_capacity: 76 } as const;
+export const lks_world_def = { $bytes: 88, size: 0, body_capacity: 4, pair_capacity: 8, contact_capacity: 12, joint_capacity: 16, tick_rate: 20, substeps: 24, sleep_ms: 28, sleep_distance: 32, broad_phase: 36, gravity: 40, speed_limit: 64, converged_contacts: 72, vehicle_capacity: 76, terrain_tile_capacity: 80, reserved: 84 } as const;
 export const lks_step_report = { $bytes: 80, size: 0, status: 4, moving_bodies: 8, asleep_bodies: 12, islands: 16, free_bodies: 20, axis_turns: 24, pairs: 28, contacts: 32, contact_points: 36, colors: 40, overflow_contacts: 44, continuous_bodies: 48, impacts: 52, saturations: 56, energy_limits: 60, computed_islands: 64, recalled_islands: 68, still_bodies: 72, still_contacts: 76 } as const;
 export const lks_surface = { $bytes: 28, friction: 0, restitution: 4, rolling_resistance: 8, friction_rule: 12, restitution_rule: 16, rolling_rule: 20, tag: 24 } as const;
 export const lks_surface_motion = { $bytes: 24, velocity: 0, turning: 12 } as const;
@@ -158,6 +158,7 @@ export const lks_vehicle_def = { $bytes: 424, size: 0, axle_count: 4, axles: 8, 
 export const lks_vehicle_controls = { $bytes: 32, size: 0, gear: 4, throttle: 8, brake: 12, handbrake: 16, steer: 20, clutch: 24, reserved: 28 } as const;
 export const lks_wheel_view = { $bytes: 56, centre: 0, spin: 24, load: 32, compression: 40, steer_sin: 44, is_grounded: 48, reserved: 52 } as const;
 export const lks_vehicle_view = { $bytes: 360, size: 0, gear: 4, engine_speed: 8, wheel_count: 16, reserved: 20, wheels: 24 } as const;
+export const lks_height_rectangle = { $bytes: 16, column: 0, row: 4, columns: 8, rows: 12 } as const;
 export const lks_event = { $bytes: 40, kind: 0, reserved: 4, a: 8, b: 16, approach_speed: 24, tag_a: 32, tag_b: 36 } as const;
 export const lks_hit_event = { $bytes: 112, a: 0, b: 8, point: 16, normal_impulse: 40, friction_impulse: 48, approach_speed: 72, normal: 80, was_stopped: 92, part_a: 96, part_b: 100, tag_a: 104, tag_b: 108 } as const;
 export const lks_joint_event = { $bytes: 32, joint: 0, a: 8, b: 16, user_data: 24 } as const;
@@ -265,6 +266,9 @@ export interface Functions {
   lks_set_vehicle(world: number, chassis: bigint, def: number): number;
   lks_drive_vehicle(world: number, chassis: bigint, controls: number): number;
   lks_vehicle_get(world: number, chassis: bigint, out: number): number;
+  lks_set_heights(world: number, body: bigint, rectangle: number, heights: number, holes: number, surfaces: number): number;
+  lks_terrain_sample_get(world: number, body: bigint, column: number, row: number, height: number, is_hole: number, surface: number): number;
+  lks_terrain_tile_count(world: number, out: number): number;
   lks_events(world: number, out: number, capacity: number, count: number): number;
   lks_joint_events(world: number, out: number, capacity: number, count: number): number;
   lks_hit_events(world: number, out: number, capacity: number, count: number): number;

@@ -23,9 +23,11 @@ typedef struct lks_world_def {
   lks_length sleep_distance; /* a body that moves less rests, 1 mm … 1 m */
   uint32_t broad_phase;      /* 0: trees, 1: sweep and prune. Changes no result */
   lks_acceleration3 gravity;
-  lks_velocity speed_limit;    /* of every body, 1 … 500 m/s */
-  uint32_t converged_contacts; /* of islands solved to convergence, 0 … 65,536; 0: none is */
-  uint32_t vehicle_capacity;   /* 0 … 64 */
+  lks_velocity speed_limit;       /* of every body, 1 … 500 m/s */
+  uint32_t converged_contacts;    /* of islands solved to convergence, 0 … 65,536; 0: none is */
+  uint32_t vehicle_capacity;      /* 0 … 64 */
+  uint32_t terrain_tile_capacity; /* changed tiles of height fields, 0 … 65,536 */
+  uint32_t reserved;              /* 0 */
 } lks_world_def;
 
 /* Sets the defaults: `lks_world_def_init(&def, sizeof def)`. */

@@ -655,6 +655,15 @@ class lks_hashes(Structure):
     ]
 
 
+class lks_height_rectangle(Structure):
+    _fields_ = [
+        ("column", c_uint32),
+        ("row", c_uint32),
+        ("columns", c_uint32),
+        ("rows", c_uint32),
+    ]
+
+
 class lks_enet_def(Structure):
     _fields_ = [
         ("size", c_uint32),
@@ -783,6 +792,8 @@ class lks_world_def(Structure):
         ("speed_limit", c_int64),
         ("converged_contacts", c_uint32),
         ("vehicle_capacity", c_uint32),
+        ("terrain_tile_capacity", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -1042,6 +1053,9 @@ FUNCTIONS = {
     "lks_save": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t, POINTER(c_size_t)],
     "lks_load": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t],
     "lks_describe_difference": [c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, POINTER(c_uint32), c_void_p, c_size_t],
+    "lks_set_heights": [c_int32, c_void_p, c_uint64, POINTER(lks_height_rectangle), POINTER(c_int32), c_void_p, c_void_p],
+    "lks_terrain_sample_get": [c_int32, c_void_p, c_uint64, c_uint32, c_uint32, POINTER(c_int32), POINTER(c_uint32), POINTER(c_uint32)],
+    "lks_terrain_tile_count": [c_int32, c_void_p, POINTER(c_uint32)],
     "lks_transport_destroy": [None, c_void_p],
     "lks_enet_def_init": [c_int32, POINTER(lks_enet_def), c_size_t],
     "lks_enet_listen": [c_int32, POINTER(lks_enet_def), c_char_p, c_void_p, POINTER(c_void_p)],

@@ -35,7 +35,8 @@ class WorldDef(ctypes.Structure):
                 ("contact_capacity", c_uint32), ("joint_capacity", c_uint32), ("tick_rate", c_uint32),
                 ("substeps", c_uint32), ("sleep_ms", c_uint32), ("sleep_distance", c_int32),
                 ("broad_phase", c_uint32), ("gravity", I64x3), ("speed_limit", c_int64),
-                ("converged_contacts", c_uint32), ("vehicle_capacity", c_uint32)]
+                ("converged_contacts", c_uint32), ("vehicle_capacity", c_uint32),
+                ("terrain_tile_capacity", c_uint32), ("reserved", c_uint32)]
 
 
 class Surface(ctypes.Structure):
@@ -180,6 +181,8 @@ _CALLS = {
     "lks_vehicle_controls_init": [c_void_p, c_size_t],
     "lks_drive_vehicle": [_WORLD, _BODY, c_void_p],
     "lks_vehicle_get": [_WORLD, _BODY, c_void_p],
+    "lks_set_heights": [_WORLD, _BODY, c_void_p, c_void_p, c_void_p, c_void_p],
+    "lks_terrain_sample_get": [_WORLD, _BODY, c_uint32, c_uint32, c_void_p, c_void_p, c_void_p],
     "lks_set_pair_rule": [_WORLD, _BODY, _BODY, c_uint32, POINTER(PairSurface)],
     "lks_set_surface_rule": [_WORLD, c_uint32, c_uint32, POINTER(PairSurface)],
     "lks_set_one_way": [_WORLD, _BODY, POINTER(I32x3), c_uint32],

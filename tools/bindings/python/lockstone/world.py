@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from ctypes import byref, sizeof
 from fractions import Fraction
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from . import units
 from ._library import (BodyDef, BodyView, Event, Filter, Fluid, Hit, HitEvent, I32x3, I64x3, JointDef, PairSurface, Pose, Quat, Shape, WorldDef, lib)
@@ -210,6 +210,25 @@ class Body:
         view.size = sizeof(view)
         lib.lks_vehicle_get(self.world.handle, self.number, byref(view))
         return view
+
+    def set_heights(self, column: int, row: int, columns: int, rows: int, heights: Optional[Sequence[Quantity]] = None,
+                    holes: Optional[Sequence[int]] = None, surfaces: Optional[Sequence[int]] = None) -> None:
+        """Changes samples of the body's height field, and the (columns - 1) * (rows - 1) cells between them."""
+        cells = max(columns - 1, 0) * max(rows - 1, 0)
+        for values, count in ((heights, columns * rows), (holes, cells), (surfaces, cells)):
+            if values is not None and len(values) != count:
+                raise ValueError(f"{len(values)} values for a rectangle that takes {count}")
+        raw = [units.raw(height, units.LENGTH, 32) for height in heights or ()]
+        self._call("lks_set_heights", byref((ctypes.c_uint32 * 4)(column, row, columns, rows)),
+                   (ctypes.c_int32 * len(raw))(*raw) if heights is not None else None,
+                   bytes(holes) if holes is not None else None, bytes(surfaces) if surfaces is not None else None)
+
+    def terrain_sample(self, column: int, row: int) -> Tuple[float, bool, int]:
+        """Height in metres in the frame of the asset, whether the cell from there is a hole, and its surface."""
+        height, hole, surface = ctypes.c_int32(), ctypes.c_uint32(), ctypes.c_uint32()
+        lib.lks_terrain_sample_get(self.world.handle, self.number, column, row, byref(height), byref(hole),
+                                   byref(surface))
+        return height.value / (1 << 20), bool(hole.value), surface.value
 
     def set_motion_type(self, motion: int, mass: Quantity = 0) -> None:
         """A body that becomes dynamic gets the mass, in kg; 0: that of its solid at 1000 kg/m³."""

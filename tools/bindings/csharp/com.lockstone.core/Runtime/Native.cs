@@ -464,6 +464,15 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_height_rectangle
+    {
+        public uint column;
+        public uint row;
+        public uint columns;
+        public uint rows;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_enet_def
     {
         public uint size;
@@ -624,6 +633,8 @@ namespace Lockstone.Interop
         public long speed_limit;
         public uint converged_contacts;
         public uint vehicle_capacity;
+        public uint terrain_tile_capacity;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1386,6 +1397,15 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_describe_difference(IntPtr world, void* here, UIntPtr here_bytes, void* there, UIntPtr there_bytes, uint* differs, byte* text, UIntPtr capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_heights(IntPtr world, ulong body, lks_height_rectangle* rectangle, int* heights, byte* holes, byte* surfaces);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_terrain_sample_get(IntPtr world, ulong body, uint column, uint row, int* height, uint* is_hole, uint* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_terrain_tile_count(IntPtr world, uint* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern void lks_transport_destroy(IntPtr transport);

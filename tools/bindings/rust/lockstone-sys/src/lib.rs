@@ -675,6 +675,14 @@ pub struct lks_hashes {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct lks_height_rectangle {
+    pub column: u32,
+    pub row: u32,
+    pub columns: u32,
+    pub rows: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct lks_enet_def {
     pub size: u32,
     pub port: u32,
@@ -816,6 +824,8 @@ pub struct lks_world_def {
     pub speed_limit: lks_velocity,
     pub converged_contacts: u32,
     pub vehicle_capacity: u32,
+    pub terrain_tile_capacity: u32,
+    pub reserved: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1065,6 +1075,9 @@ extern "C" {
     pub fn lks_save(world: *const lks_world, kind: u32, out: *mut c_void, capacity: usize, bytes: *mut usize) -> lks_status;
     pub fn lks_load(world: *mut lks_world, kind: u32, bytes: *const c_void, count: usize) -> lks_status;
     pub fn lks_describe_difference(world: *const lks_world, here: *const c_void, here_bytes: usize, there: *const c_void, there_bytes: usize, differs: *mut u32, text: *mut c_char, capacity: usize) -> lks_status;
+    pub fn lks_set_heights(world: *mut lks_world, body: lks_body, rectangle: *const lks_height_rectangle, heights: *const lks_length, holes: *const u8, surfaces: *const u8) -> lks_status;
+    pub fn lks_terrain_sample_get(world: *const lks_world, body: lks_body, column: u32, row: u32, height: *mut lks_length, is_hole: *mut u32, surface: *mut u32) -> lks_status;
+    pub fn lks_terrain_tile_count(world: *const lks_world, out: *mut u32) -> lks_status;
     pub fn lks_transport_destroy(transport: *mut lks_transport);
     pub fn lks_enet_def_init(def: *mut lks_enet_def, size: usize) -> lks_status;
     pub fn lks_enet_listen(def: *const lks_enet_def, address: *const c_char, key: *const c_void, out: *mut *mut lks_transport) -> lks_status;

@@ -1,0 +1,77 @@
+#include "core/world/data/terrain_data.h"
+
+#include <algorithm>
+
+#include "core/world/data/sorted_table.h"
+#include "core/world/data/world_data.h"
+
+namespace lockstone {
+namespace {
+
+// Bodies with tiles have the assets of their own again.
+void unbind(WorldData& world) {
+  for (const std::uint32_t body : world.edited_bodies) {
+    const BodyRecord& record = world.bodies[body];
+    if (!record.exists()) continue;
+    world.cache.set_asset(body, world.assets->find(record.asset));
+    world.refresh(body);
+  }
+  world.edited_bodies.clear();
+}
+
+// Damaged memory may name a body without a height field.
+void bind(WorldData& world, std::uint32_t body, std::span<const TerrainTileRecord> tiles) {
+  if (body >= world.header.body_limit || !world.bodies[body].exists()) return;
+  if (terrain_of(world, body) == nullptr) return;
+  LKS_ASSERT(world.edited_bodies.size() < world.edited_fields->slots());
+  const auto slot = static_cast<std::uint32_t>(world.edited_bodies.size());
+  const Asset& base = *world.assets->find(world.bodies[body].asset);
+  world.cache.set_asset(body, world.edited_fields->set(slot, base, tiles));
+  world.edited_bodies.push_back(body);
+  world.refresh(body);
+}
+
+}  // namespace
+
+void TerrainData::make_terrain_room(std::uint32_t tile_capacity, std::uint32_t body_capacity,
+                                    const AssetSet& assets) {
+  if (tile_capacity == 0) return;
+  tiles.resize(tile_capacity);
+  const std::uint32_t most = std::min(tile_capacity, body_capacity);
+  edited_bodies.reserve(most);
+  for (const AssetPtr& asset : assets.all()) {
+    if (asset->height_editing() == nullptr) continue;
+    edited_fields = asset->height_editing()->make_edited(most);
+    return;
+  }
+}
+
+void refresh_terrain(WorldData& world) {
+  world.is_tile_hash_known = false;
+  unbind(world);
+  auto tiles =
+      std::span<const TerrainTileRecord>(world.tiles).first(world.header.terrain_tile_count);
+  while (!tiles.empty()) {
+    const std::uint32_t body = tiles.front().owner;
+    const auto end = std::ranges::find_if(
+        tiles, [&](const TerrainTileRecord& tile) { return tile.owner != body; });
+    const auto count = static_cast<std::size_t>(end - tiles.begin());
+    bind(world, body, tiles.first(count));
+    tiles = tiles.subspan(count);
+  }
+}
+
+bool forget_terrain_of(WorldData& world, std::uint32_t body) {
+  const std::uint32_t before = world.header.terrain_tile_count;
+  if (before == 0) return false;
+  remove_records(world.tiles, world.header.terrain_tile_count,
+                 [&](const TerrainTileRecord& tile) { return tile.owner == body; });
+  return world.header.terrain_tile_count != before;
+}
+
+const geometry::HeightEditing* terrain_of(const WorldData& world, std::uint32_t body) {
+  const Asset* asset = world.assets->find(world.bodies[body].asset);
+  return asset == nullptr ? nullptr : asset->height_editing();
+}
+
+}  // namespace lockstone
