@@ -22,8 +22,10 @@ void Waking::stir(std::uint32_t body) {
 void Waking::stir_around(std::uint32_t body) {
   for (const std::uint32_t other : world_.joint_graph.neighbours(body))
     stir(other);
-  if (!world_.broad_phase.has(body)) return;
-  const Bounds here = world_.broad_phase.bounds(body);
+  if (world_.broad_phase.has(body)) stir_within(world_.broad_phase.bounds(body));
+}
+
+void Waking::stir_within(const Bounds& here) {
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },
       [&](std::uint32_t other) { stir(other); });
@@ -113,6 +115,7 @@ void Waking::disturb_around(std::uint32_t body) {
 }
 
 void Waking::disturb_within(const Bounds& here, std::uint32_t body) {
+  stir_within(here);
   if (flags_.asleep_count() == 0) return;
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },

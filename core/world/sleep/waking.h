@@ -45,6 +45,7 @@ class Waking {
  private:
   void stir(std::uint32_t body);
   void stir_around(std::uint32_t body);
+  void stir_within(const Bounds& here);
   void spread_from(std::uint32_t body);
 
   WorldData& world_;

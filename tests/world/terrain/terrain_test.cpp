@@ -97,6 +97,20 @@ TEST(Terrain, WakesBodiesOnTheEditedCellsAndNoOthers) {
   EXPECT_NEAR(metres(world.position(aside).y), 0.25, 0.01);
 }
 
+// Awake, and left out of the solver until the ground below changes.
+TEST(Terrain, MovesStillBodiesOnTheEditedCells) {
+  WorldDef def = terrain_def();
+  def.sleep_ms = 0;
+  World world = make_world(def);
+  const BodyHandle ground = add_terrain(world);
+  const BodyHandle box = add_box(world, 0_m, 0_m);
+  test::step(world, 60);
+  ASSERT_EQ(world.step().still_bodies, 1U);
+  ASSERT_EQ(set_square(world, ground, 8, 8, 5, -2_m), Status::ok);
+  test::step(world, 10);
+  EXPECT_LT(world.body(box).velocity.y, Velocity::from_integer(-1));
+}
+
 TEST(Terrain, LiftsBodiesInSmallSteps) {
   World world = make_world();
   const BodyHandle ground = add_terrain(world);
