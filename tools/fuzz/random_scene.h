@@ -35,25 +35,10 @@ class RandomScene {
   bool with_rims_;
 };
 
-/// Once in so many times.
-[[nodiscard]] inline bool chance(arena::Random& random, std::uint32_t one_in) {
-  return random.below(one_in) == 0;
-}
-
-/// Null when it hits an empty slot.
-[[nodiscard]] inline BodyHandle any_body(const World& world, arena::Random& random) {
-  return world.body_limit() == 0 ? BodyHandle{} : world.body_at(random.below(world.body_limit()));
-}
-
-/// A command for a world as it stands, from sensible to absurd. The world may refuse it.
 /// Which lists of events of the last step differ; empty when none do.
 [[nodiscard]] std::string difference_of_events(const World& a, const World& b);
 
-/// Gives bodies other event settings: all before the first tick, one of them seldom later. The
-/// settings change no motion, and their numbers are drawn apart: scenes of one seed move alike
-/// with and without them.
-void drive_events(World& world, std::uint64_t seed);
-
+/// A command for a world as it stands, from sensible to absurd. The world may refuse it.
 [[nodiscard]] Command random_command(const World& world, arena::Random& random);
 
 }  // namespace lockstone::fuzz

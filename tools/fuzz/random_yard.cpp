@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/fuzz/random_features.h"
 #include "tools/fuzz/random_scene.h"
 #include "tools/scenes/build.h"
 

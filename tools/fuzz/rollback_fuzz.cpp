@@ -9,6 +9,7 @@
 
 #include <lockstone/rollback_history.h>
 
+#include "tools/fuzz/random_features.h"
 #include "tools/fuzz/random_scene.h"
 #include "tools/fuzz/random_yard.h"
 #include "tools/support/for_blocks.h"

@@ -1,0 +1,169 @@
+#include "tools/fuzz/random_features.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "tools/scenes/assets.h"
+
+namespace lockstone::fuzz {
+
+using arena::mix;
+using arena::Random;
+
+std::int64_t log_between(Random& random, std::int64_t low, std::int64_t high) {
+  int octaves = 0;
+  while ((low << (octaves + 1)) <= high)
+    ++octaves;
+  const std::int64_t floor = low << random.between(0, octaves);
+  const std::uint64_t rest = random.next() % static_cast<std::uint64_t>(floor);
+  return std::min(high, floor + static_cast<std::int64_t>(rest));
+}
+
+void drive_events(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 2)));
+  const auto settings = [&] {
+    EventSettings events{!chance(random, 4), {}};
+    if (chance(random, 2))
+      events.hit_speed.raw = static_cast<std::int32_t>(log_between(random, 1, 500 << 20));
+    return events;
+  };
+  for (std::uint32_t i = 0; world.tick() == 0 && i < world.body_limit(); ++i)
+    (void)world.apply(SetEvents{world.body_at(i), settings()});
+  if (chance(random, 8)) (void)world.apply(SetEvents{any_body(world, random), settings()});
+}
+
+namespace {
+
+// Changes of bodies and fluids, drawn apart.
+void drive_changes(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 5)));
+  if (!chance(random, 12)) return;
+  const BodyHandle body = any_body(world, random), other = any_body(world, random);
+  if (body.is_null() || other.is_null()) return;
+  switch (random.below(5)) {
+    case 0:
+      return (void)world.apply(
+          SetMotionType{body, static_cast<MotionType>(1 + random.below(3)), {}});
+    case 1:
+      return (void)world.apply(SetShape{body, world.body(other).shape, {}});
+    case 2:
+      return (void)world.apply(
+          SetMassData{body, {Mass::from_raw(log_between(random, 1LL << 13, 1LL << 52)), {}}});
+    case 3:
+      return (void)world.apply(SetEnabled{body, !chance(random, 3)});
+    default:
+      break;
+  }
+  Fluid fluid{.surface = world.position(body), .orientation = {}};
+  const auto half = [&] { return Position::from_raw(log_between(random, 1LL << 30, 1LL << 40)); };
+  fluid.size = {half(), half(), half()};
+  fluid.density.raw = chance(random, 3) ? 0 : static_cast<std::int32_t>(random.below(1U << 20));
+  fluid.drag.raw = static_cast<std::int32_t>(random.below(2U << 20));
+  fluid.linear_drag.raw = static_cast<std::int32_t>(random.below(4U << 20));
+  (void)world.apply(SetFluid{random.below(2), fluid});
+}
+
+// Cars of any kind, on bodies of any kind, drawn apart.
+void drive_vehicles(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 9)));
+  if (!chance(random, 12)) return;
+  const BodyHandle body = any_body(world, random);
+  const auto share = [&] { return Unit::from_ratio(random.between(-100, 100), 100); };
+  if (chance(random, 2)) {
+    const std::int32_t gear = random.between(-1, 8);
+    return (void)world.apply(
+        DriveVehicle{body, {share(), share(), share(), share(), share(), gear}});
+  }
+  SetVehicle command{body, {}};
+  if (chance(random, 5)) return (void)world.apply(command);
+  const auto half = [&] {
+    return Length::from_raw(static_cast<std::int32_t>(log_between(random, 1LL << 17, 1LL << 21)));
+  };
+  const Length length = half(), track = half();
+  command.def = make_car(length, track, -half(), Torque::from_integer(random.between(0, 5000)));
+  for (Axle& axle : command.def->axles) {
+    axle.radius = max(half(), Length::from_ratio(1, 20));
+    axle.frequency = Number::from_ratio(random.between(2, 100), 10);
+    axle.damping_ratio = Number::from_ratio(random.between(0, 20), 10);
+    axle.anti_roll = Number::from_ratio(random.between(0, 40), 10);
+    axle.differential_lock = Torque::from_integer(random.between(0, 100'000));
+  }
+  command.def->axle_count = 1 + random.below(3);
+  command.def->gearbox.automatic = chance(random, 2);
+  command.def->cast = static_cast<WheelCast>(random.below(2));
+  (void)world.apply(command);
+}
+
+// Edits of height fields, drawn apart: some are refused.
+void drive_terrain(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 11)));
+  if (!chance(random, 6)) return;
+  const BodyHandle body = any_body(world, random);
+  if (!terrain_sample_of(world, body, 0, 0)) return;
+  SetHeights command{.body = body, .column = random.below(9), .row = random.below(9)};
+  command.columns = 1 + random.below(5);
+  command.rows = 1 + random.below(5);
+  std::vector<Length> heights(std::size_t{command.columns} * command.rows);
+  const auto middle = static_cast<std::int32_t>(random.between(-1000, 1000));
+  for (Length& height : heights)
+    height =
+        scenes::millimetres_long(middle + static_cast<std::int32_t>(random.between(-300, 300)));
+  std::vector<std::uint8_t> holes(std::size_t{command.columns - 1} * (command.rows - 1));
+  for (std::uint8_t& hole : holes)
+    hole = chance(random, 3) ? 1 : 0;
+  if (!chance(random, 4)) command.heights = heights;
+  if (chance(random, 3)) command.holes = holes;
+  (void)world.apply(command);
+}
+
+// Rules about pairs, drawn apart.
+void drive_rules(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 7)));
+  if (!chance(random, 10)) return;
+  const auto coefficient = [&] { return Coefficient::from_ratio(random.between(0, 99), 100); };
+  const PairSurface surface{coefficient(), coefficient(), coefficient()};
+  const BodyHandle body = any_body(world, random);
+  switch (random.below(4)) {
+    case 0:
+      return (void)world.apply(
+          SetPairRule{body, any_body(world, random), {chance(random, 2), surface}});
+    case 1:
+      return (void)world.apply(SetPairRule{body, any_body(world, random), {}});
+    case 2:
+      return (void)world.apply(SetSurfaceRule{random.below(2), random.below(2), surface});
+    default:
+      break;
+  }
+  OneWay one_way;
+  if (!chance(random, 4)) one_way.direction = {coefficient(), coefficient(), coefficient()};
+  one_way.tolerance = static_cast<std::uint8_t>(random.between(1, 90));
+  (void)world.apply(SetOneWay{body, one_way});
+}
+
+// Locks of a joint that turn, in a quarter of all scenes. Draws its numbers apart.
+void drive_turning_locks(World& world, std::uint64_t seed) {
+  Random gate(mix(seed ^ 0x7475726e));
+  if (!chance(gate, 4)) return;
+  Random random(mix(~seed ^ mix(world.tick() + 5)));
+  if (!chance(random, 4)) return;
+  const JointHandle joint = any_joint(world, random);
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    AngularAxis axis{.mode = AxisMode::locked};
+    axis.target = Angle::from_ratio(random.between(-300, 300), 100);
+    if (chance(random, 2)) axis.speed = Rate::from_ratio(random.between(-5000, 5000), 100);
+    (void)world.apply(SetAngularAxis{joint, i, axis});
+  }
+}
+
+}  // namespace
+
+void drive_features(World& world, std::uint64_t seed) {
+  drive_events(world, seed);
+  drive_changes(world, seed);
+  drive_rules(world, seed);
+  drive_vehicles(world, seed);
+  drive_turning_locks(world, seed);
+  drive_terrain(world, seed);
+}
+
+}  // namespace lockstone::fuzz
