@@ -199,5 +199,26 @@ TEST(StillIslands, MoveAfterAnyCommandAsIfTheyHadNeverBeenStill) {
   }
 }
 
+// In each tick a copy is solved whole.
+TEST(StillIslands, TakeEachStepAsSolvedOnesDoUnderManyCommands) {
+  std::uint32_t still_bodies = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    World still = make_still_yard(), solved = make_sleepless_world();
+    test::Random random(seed);
+    test::CommandDice dice(still, random, false);
+    for (int tick = 0; tick < 400; ++tick) {
+      for (int i = 0; tick % 20 == 0 && i < 2; ++i)
+        (void)still.apply(dice.any());
+      const std::vector<std::byte> bytes = test::save(still, SnapshotKind::canonical);
+      ASSERT_EQ(solved.load(SnapshotKind::canonical, bytes), Status::ok);
+      wake_all(solved);
+      EXPECT_EQ(solved.step().still_bodies, 0U);
+      still_bodies += still.step().still_bodies;
+      ASSERT_LT(velocity_difference(still, solved), 1e-3) << "seed " << seed << ", tick " << tick;
+    }
+  }
+  EXPECT_GT(still_bodies, 1000U);
+}
+
 }  // namespace
 }  // namespace lockstone
