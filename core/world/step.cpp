@@ -35,6 +35,7 @@ StepReport World::Impl::step(PairFilter* only) {
 // Sleeping bodies that will be met wake first: then there are more pairs.
 void World::Impl::find_pairs(StepReport& report, PairFilter* only) {
   const StageTimer timer(profiler, StepStage::find_pairs);
+  continuous.stir_swept();
   do {
     waking.wake_joined();
     list_awake_joints();

@@ -11,7 +11,6 @@ Waking::Waking(WorldData& world, SleepFlags& flags, TickContacts& found)
   to_wake_.reserve(std::size_t{1 + k_max_impacts} * world.def.body_capacity);
 }
 
-// Its island is solved again.
 void Waking::stir(std::uint32_t body) {
   if (world_.bodies[body].still_ticks == 0) return;
   world_.bodies[body].still_ticks = 0;

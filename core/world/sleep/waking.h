@@ -19,8 +19,8 @@ class Waking {
   /// wake only where the contacts of a tick are not in use.
   Waking(WorldData& world, SleepFlags& flags, TickContacts& found);
 
-  /// Wakes the body, which sleeps or not, and everything connected to it. Here and below a body that
-  /// is awake begins to count its still ticks again.
+  /// Wakes the body, which sleeps or not, and everything connected to it. Here and below a body
+  /// that is awake begins to count its still ticks again.
   void wake(std::uint32_t body);
   void wake_ends(const JointRecord& joint);
   void wake_all();
@@ -37,13 +37,14 @@ class Waking {
 
   /// Wakes the body at once; the next `wake_listed` wakes the bodies connected to it.
   void list(std::uint32_t body);
+  /// The island of a body that is awake is solved again, if it was still.
+  void stir(std::uint32_t body);
   /// For a sleeping body that was hit during a step: it wakes by the next `wake_listed`.
   void note_hit(std::uint32_t body) { to_wake_.push_back(body); }
   /// Returns whether any body was listed.
   bool wake_listed();
 
  private:
-  void stir(std::uint32_t body);
   void stir_around(std::uint32_t body);
   void stir_within(const Bounds& here);
   void spread_from(std::uint32_t body);

@@ -202,7 +202,7 @@ TEST(StillIslands, MoveAfterAnyCommandAsIfTheyHadNeverBeenStill) {
 // In each tick a copy is solved whole.
 TEST(StillIslands, TakeEachStepAsSolvedOnesDoUnderManyCommands) {
   std::uint32_t still_bodies = 0;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     World still = make_still_yard(), solved = make_sleepless_world();
     test::Random random(seed);
     test::CommandDice dice(still, random, false);

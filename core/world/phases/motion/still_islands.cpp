@@ -1,6 +1,7 @@
 #include "core/world/phases/motion/still_islands.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <lockstone/assert.h>
 
@@ -14,6 +15,15 @@ std::uint16_t ticks_of(std::int32_t tick_rate) {
 
 bool is_moving(const BodyRecord& body) {
   return body.velocity != Vec3<Velocity>{} || body.spin != Vec3<Velocity>{};
+}
+
+// Below 61 µm/s along each axis.
+bool is_slow(const BodyRecord& body) {
+  constexpr std::int64_t k_slow = std::int64_t{1} << (Velocity::frac_bits - 14);
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(body.velocity[i].raw) >= k_slow || std::abs(body.spin[i].raw) >= k_slow)
+      return false;
+  return true;
 }
 
 bool has_same_points(const ContactRecord& record, const Manifold& manifold) {
@@ -65,14 +75,15 @@ bool StillIslands::may_find() const {
   });
 }
 
-// A body that was still has no velocity unless something gave it one.
+// A body that was still has no velocity unless something gave it one. Others may have some that
+// contacts take back in each substep.
 void StillIslands::look_at_bodies() {
   for (const std::uint32_t body : world_.awake.list()) {
     const BodyRecord& record = world_.bodies[body];
     is_tied_[body] = 0;
     if (!record.is_dynamic()) continue;
     const bool was_still = record.still_ticks > ticks_;
-    if (record.still_ticks < ticks_) islands_.mark_active(body);
+    if (record.still_ticks < ticks_ || !is_slow(record)) islands_.mark_active(body);
     if (record.is_pushed() || bounces_.has_moved(body) || pendulums_.has(body) ||
         (was_still && is_moving(record)))
       stir(body);
