@@ -35,7 +35,6 @@ StepReport World::Impl::step(PairFilter* only) {
 // Sleeping bodies that will be met wake first: then there are more pairs.
 void World::Impl::find_pairs(StepReport& report, PairFilter* only) {
   const StageTimer timer(profiler, StepStage::find_pairs);
-  continuous.stir_swept();
   do {
     waking.wake_joined();
     list_awake_joints();
@@ -46,9 +45,13 @@ void World::Impl::find_pairs(StepReport& report, PairFilter* only) {
   if (broad_phase.overflowed()) report.status = Status::capacity_exhausted;
 }
 
-// Wakes the bodies that awake bodies are about to touch. Returns whether there was any.
+// Wakes the bodies that awake bodies are about to touch, and stirs still ones that kinematic bodies
+// may run into. Returns whether any woke.
 bool World::Impl::wake_met() {
-  if (sleep_flags.asleep_count() == 0) return false;
+  if (sleep_flags.asleep_count() == 0) {
+    continuous.wake_struck();
+    return false;
+  }
   for (const Pair& pair : pairs) {
     const bool a_awake = awake.has(pair.a), b_awake = awake.has(pair.b);
     if (a_awake && b_awake) continue;

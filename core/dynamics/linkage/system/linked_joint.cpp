@@ -22,7 +22,7 @@ MassShare mass_share(BlockFloat part, BlockFloat whole) {
 }
 
 // `from`, turned in its own axes by angles of Q32 radians.
-Quat turned(const Quat& from, const RotationVector& by) {
+Quat turned_by(const Quat& from, const RotationVector& by) {
   return normalized(multiply(from, rotation_from_vector(by)));
 }
 
@@ -39,7 +39,8 @@ JointFrames frames_of(const JointRecord& joint, const TimeStep& step, std::int32
       const std::int64_t way = std::int64_t{axis.speed} * substeps_left * (1 << 12);
       left[i].raw = raw::round_divide(-way, step.substep_rate());
     }
-    if (target != RotationVector{} || left != RotationVector{}) a = turned(turned(a, target), left);
+    if (target != RotationVector{} || left != RotationVector{})
+      a = turned_by(turned_by(a, target), left);
   }
   return {to_matrix(a), to_matrix(joint.orientation_b)};
 }

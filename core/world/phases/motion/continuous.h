@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -63,10 +62,9 @@ class ContinuousCollision {
   void note_far_mover(std::uint32_t body);
   /// Moves bodies back to their first impacts, resolves these and moves them on.
   void run(StepReport& report);
-  /// Wakes the sleepers that kinematic bodies will run into in the coming tick.
+  /// Before a tick: wakes the sleepers that kinematic bodies will run into, and stirs still bodies
+  /// that kinematic bodies and triggers may.
   void wake_struck();
-  /// Before the tick: still bodies that kinematic bodies and triggers may meet are solved in it.
-  void stir_swept();
 
   [[nodiscard]] const Stops& stops() const { return stops_; }
   [[nodiscard]] std::span<const Sweeper> sweepers() const { return sweepers_; }
@@ -91,7 +89,6 @@ class ContinuousCollision {
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
   [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   void list_sweepers();
-  [[nodiscard]] std::optional<Sweep> far_motion(std::uint32_t body) const;
   void find_struck(std::uint32_t sweeper);
   [[nodiscard]] bool carries(std::uint32_t body) const;
   void push_out(std::uint32_t body, std::uint32_t sweeper);

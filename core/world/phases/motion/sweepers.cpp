@@ -3,7 +3,6 @@
 // before the tick.
 
 #include <algorithm>
-#include <optional>
 
 #include "core/collision/continuous/first_impact.h"
 #include "core/dynamics/body/motion.h"
@@ -43,58 +42,38 @@ void ContinuousCollision::list_sweepers() {
   }
 }
 
-// Lists the sleepers that kinematic bodies will run into in the coming tick. How those move is
-// known before it.
+// Lists the sleepers that kinematic bodies will run into in the coming tick, and stirs the still
+// bodies near their ways and those of triggers. How those move is known before it.
 void ContinuousCollision::wake_struck() {
   struck_.clear();
   for (const std::uint32_t body : world_.awake.list()) {
     const BodyRecord& record = world_.bodies[body];
-    if (!record.is_dynamic() && !record.is_trigger()) find_struck(body);
+    const bool moves = record.velocity != Vec3<Velocity>{} || record.spin != Vec3<Velocity>{};
+    if (moves && (!record.is_dynamic() || record.is_trigger())) find_struck(body);
   }
   for (const std::uint32_t body : struck_)
     waking_.list(body);
 }
 
-// The motion of a body in the coming tick, if nothing stops it; nothing unless it goes far.
-std::optional<Sweep> ContinuousCollision::far_motion(std::uint32_t body) const {
-  BodyRecord end = world_.bodies[body];
-  const Transform start{end.position, end.orientation};
-  (void)fly(end, world_.cache.rotation(body), world_.header.gravity, world_.time_step,
-            world_.header.tick);
-  if (!goes_far(body, start, end)) return {};
-  return Sweep{start, end.position - start.position,
-               turn_since(start.orientation, world_.cache.rotation(body), end, world_.time_step,
-                          k_whole_tick)};
-}
-
-// Stirs still bodies near the ways of kinematic bodies and triggers: those are followed.
-void ContinuousCollision::stir_swept() {
-  for (const std::uint32_t body : world_.awake.list()) {
-    const BodyRecord& record = world_.bodies[body];
-    if (record.is_dynamic() && !record.is_trigger()) continue;
-    if (record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{}) continue;
-    const std::optional<Sweep> motion = far_motion(body);
-    if (!motion) continue;
-    const Bounds way = bounds_on_way(body, *motion);
-    world_.broad_phase.traverse(
-        k_every_category, [&](const Bounds& bounds) { return overlap(way, bounds); },
-        [&](std::uint32_t other) { waking_.stir(other); });
-  }
-}
-
 void ContinuousCollision::find_struck(std::uint32_t sweeper) {
-  const std::optional<Sweep> on_way = far_motion(sweeper);
-  if (!on_way) return;
-  const Sweep& motion = *on_way;
+  BodyRecord end = world_.bodies[sweeper];
+  const Transform start{end.position, end.orientation};
+  (void)fly(end, world_.cache.rotation(sweeper), world_.header.gravity, world_.time_step,
+            world_.header.tick);
+  if (!goes_far(sweeper, start, end)) return;
+  const Sweep motion{start, end.position - start.position,
+                     turn_since(start.orientation, world_.cache.rotation(sweeper), end,
+                                world_.time_step, k_whole_tick)};
   const Bounds way = bounds_on_way(sweeper, motion);
-  const Shape shape = world_.bodies[sweeper].shape();
-  moved_.note_look(sweeper, sweeper);
+  const Shape shape = end.shape();
+  if (!end.is_trigger()) moved_.note_look(sweeper, sweeper);
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(way, bounds); },
       [&](std::uint32_t other) {
+        waking_.stir(other);
         const BodyRecord& record = world_.bodies[other];
         const bool sleeps = record.is_dynamic() && record.is_asleep() && !record.is_trigger();
-        if (!sleeps || !world_.is_obstacle(other, sweeper) ||
+        if (end.is_trigger() || !sleeps || !world_.is_obstacle(other, sweeper) ||
             struck_.size() == world_.def.body_capacity)
           return;
         moved_.note_look(sweeper, other);
