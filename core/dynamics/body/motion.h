@@ -15,6 +15,11 @@
 
 namespace lockstone {
 
+/// Whether the body has a velocity or turns.
+[[nodiscard]] inline bool has_motion(const BodyRecord& body) {
+  return body.velocity != Vec3<Velocity>{} || body.spin != Vec3<Velocity>{};
+}
+
 /// Of parts of a tick.
 inline constexpr Unit k_whole_tick = Unit::from_integer(1);
 

@@ -238,8 +238,7 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
   if (constraints_.has_restitution()) bounce_limit_.limit(bodies, speed_limit);
 }
 
-bool ContactSolver::keeps_recycling_pose(std::uint32_t body, const BodyRecord& record) const {
-  const IslandTally* island = island_of(body);
+bool ContactSolver::keeps_recycling_pose(const IslandTally* island, const BodyRecord& record) {
   if (island == nullptr || island->is_converged) return false;
   return is_near_recycling_pose(record, island->is_stack() ? k_fine_delta : k_coarse_delta);
 }

@@ -91,9 +91,10 @@ class ContactSolver {
     return motion_.speeds(number_of(solved));
   }
 
-  /// Whether the body's manifolds may stay as they are: its island is left to the iterations, and
-  /// it has not moved far.
-  [[nodiscard]] bool keeps_recycling_pose(std::uint32_t body, const BodyRecord& record) const;
+  /// Whether a body's manifolds may stay as they are: its island (`island_of`) is left to the
+  /// iterations, and it has not moved far.
+  [[nodiscard]] static bool keeps_recycling_pose(const IslandTally* island,
+                                                 const BodyRecord& record);
 
   /// A body of an island has another pose than at the tick's beginning. From any thread.
   void note_moved(std::uint32_t body);

@@ -107,19 +107,25 @@ JointDef joint_of(const RagdollDef& def, const Ragdoll& ragdoll, std::size_t bon
   joint.frame_a = frames.a;
   joint.frame_b = frames.b;
   joint.user_data = def.user_data;
-  for (AngularAxis& axis : joint.angular)
-    if (axis.mode == AxisMode::free) axis.max_effort = child.friction;
-  if (child.joint == JointKind::weld) return joint;
-  if (child.max_twist < k_half_turn || child.min_twist > -k_half_turn) {
-    joint.angular[0].mode = AxisMode::limited;
-    joint.angular[0].lower = child.min_twist;
-    joint.angular[0].upper = child.max_twist;
-  }
-  if (child.joint == JointKind::ball && child.max_swing < k_half_turn) {
-    joint.angular[1].mode = AxisMode::limited;
-    joint.angular[1].upper = child.max_swing;
-  }
+  joint.angular = limp_axes(child);
   return joint;
+}
+
+std::array<AngularAxis, 3> limp_axes(const Bone& bone) {
+  std::array<AngularAxis, 3> axes = JointDef::of(bone.joint, {}, {}).angular;
+  for (AngularAxis& axis : axes)
+    if (axis.mode == AxisMode::free) axis.max_effort = bone.friction;
+  if (bone.joint == JointKind::weld) return axes;
+  if (bone.max_twist < k_half_turn || bone.min_twist > -k_half_turn) {
+    axes[0].mode = AxisMode::limited;
+    axes[0].lower = bone.min_twist;
+    axes[0].upper = bone.max_twist;
+  }
+  if (bone.joint == JointKind::ball && bone.max_swing < k_half_turn) {
+    axes[1].mode = AxisMode::limited;
+    axes[1].upper = bone.max_swing;
+  }
+  return axes;
 }
 
 Refusal check_bones(const RagdollDef& def) {

@@ -1,6 +1,8 @@
 // The parts of a ragdoll that its bones decide.
 #pragma once
 
+#include <array>
+
 #include <lockstone/ragdoll.h>
 
 namespace lockstone {
@@ -14,6 +16,9 @@ struct BoneFrames {
 
 /// Of a bone that has a parent, limp.
 [[nodiscard]] JointDef joint_of(const RagdollDef& def, const Ragdoll& ragdoll, std::size_t bone);
+
+/// The angular axes of that joint.
+[[nodiscard]] std::array<AngularAxis, 3> limp_axes(const Bone& bone);
 
 /// Whether the bones are a tree of valid numbers; bodies and anchors are not looked at.
 [[nodiscard]] Refusal check_bones(const RagdollDef& def);

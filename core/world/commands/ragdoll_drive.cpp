@@ -133,11 +133,11 @@ class RagdollDriver {
   }
 
   void set_targets(std::size_t bone, const Quat& from, const Quat& to) {
-    const JointDef joint = joint_of(def_, ragdoll_, bone);
+    const std::array<AngularAxis, 3> axes = limp_axes(def_.bones[bone]);
     const BoneDrive& drive = joint_drive(bone);
     const JointTarget target = target_of(from, to, world_.def().tick_rate);
     for (int i = 0; i < 3; ++i) {
-      const AngularAxis& limp = joint.angular[static_cast<std::size_t>(i)];
+      const AngularAxis& limp = axes[static_cast<std::size_t>(i)];
       const AngularAxis axis = settings_of(drive, limp, target.angle[i], target.speed[i]);
       note(world_.apply(SetAngularAxis{ragdoll_.joints[bone], static_cast<std::uint8_t>(i), axis}));
     }

@@ -10,6 +10,8 @@
 
 #include <lockstone/assert.h>
 
+#include "core/dynamics/body/motion.h"
+
 namespace lockstone {
 namespace {
 
@@ -73,8 +75,7 @@ bool IslandSleep::watch_bodies() {
       world_.hashes.bodies.mark(body);
       ready |= count_rest(record, rules);
     } else if (!record.is_dynamic() && record.may_sleep()) {
-      if (record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{})
-        to_sleep_.push_back(body);
+      if (!has_motion(record)) to_sleep_.push_back(body);
     }
   }
   return ready;

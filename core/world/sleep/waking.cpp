@@ -21,10 +21,8 @@ void Waking::stir(std::uint32_t body) {
 void Waking::stir_around(std::uint32_t body) {
   for (const std::uint32_t other : world_.joint_graph.neighbours(body))
     stir(other);
-  if (world_.broad_phase.has(body)) stir_within(world_.broad_phase.bounds(body));
-}
-
-void Waking::stir_within(const Bounds& here) {
+  if (!world_.broad_phase.has(body)) return;
+  const Bounds here = world_.broad_phase.bounds(body);
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },
       [&](std::uint32_t other) { stir(other); });
@@ -108,18 +106,17 @@ void Waking::disturb(std::uint32_t body) {
 
 // A body that moves is awake by now and finds the others by itself.
 void Waking::disturb_around(std::uint32_t body) {
-  stir_around(body);
-  if (flags_.asleep_count() == 0 || world_.bodies[body].moves()) return;
+  if (world_.bodies[body].moves()) return stir_around(body);
   if (world_.broad_phase.has(body)) disturb_within(world_.broad_phase.bounds(body), body);
 }
 
 void Waking::disturb_within(const Bounds& here, std::uint32_t body) {
-  stir_within(here);
-  if (flags_.asleep_count() == 0) return;
+  const bool may_wake = flags_.asleep_count() != 0;
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },
       [&](std::uint32_t other) {
-        if (should_collide(world_.bodies[body].filter(), world_.bodies[other].filter()))
+        stir(other);
+        if (may_wake && should_collide(world_.bodies[body].filter(), world_.bodies[other].filter()))
           list(other);
       });
   wake_listed();

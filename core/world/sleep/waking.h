@@ -46,7 +46,6 @@ class Waking {
 
  private:
   void stir_around(std::uint32_t body);
-  void stir_within(const Bounds& here);
   void spread_from(std::uint32_t body);
 
   WorldData& world_;

@@ -5,6 +5,7 @@
 #include <lockstone/hash.h>
 
 #include "core/dynamics/body/inertia.h"
+#include "core/dynamics/body/motion.h"
 #include "core/dynamics/body/tick_gain.h"
 #include "core/dynamics/state/limits.h"
 #include "core/dynamics/state/one_way_bits.h"
@@ -60,9 +61,8 @@ bool has_valid_notes(const BodyRecord& record) {
   if (!record.is_pushed()) return true;
   const TickGain gain = tick_gain_of(record);
   return !record.is_asleep() && is_enabled(record) && record.rest_ticks == 0 &&
-         record.still_ticks == 0 &&
-         record.union_c.raw >> k_exponent_bits == 0 && is_within(gain.velocity, k_most_gain) &&
-         is_within(gain.spin, k_most_gain);
+         record.still_ticks == 0 && record.union_c.raw >> k_exponent_bits == 0 &&
+         is_within(gain.velocity, k_most_gain) && is_within(gain.spin, k_most_gain);
 }
 
 // The asset exists, and a body without a mass distribution does not move.
@@ -88,8 +88,7 @@ bool has_valid_sleep(const BodyRecord& record) {
   if (record.has_changed_sleep() && !record.is_dynamic()) return false;
   if (record.still_ticks != 0 && (!record.is_dynamic() || !record.is_awake())) return false;
   if (!record.moves() || !is_enabled(record)) return !record.is_asleep();
-  const bool still = record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{};
-  return !record.is_asleep() || (still && record.may_sleep());
+  return !record.is_asleep() || (!has_motion(record) && record.may_sleep());
 }
 
 bool is_empty_slot(const BodyRecord& record) {

@@ -4,6 +4,8 @@
 
 #include <lockstone/assert.h>
 
+#include "core/dynamics/body/motion.h"
+
 namespace lockstone {
 
 IslandBuilder::IslandBuilder(std::size_t body_capacity, std::size_t contact_capacity)
@@ -65,9 +67,7 @@ void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& c
     const ImmovablePush push = push_of(scene, contact);
     if (push.island == 0) return;
     LKS_ASSERT(push.body < scene.bodies.size() && push.island < islands_.count());
-    const BodyRecord& holder = scene.bodies[push.body];
-    if (holder.velocity != Vec3<Velocity>{} || holder.spin != Vec3<Velocity>{})
-      pinched_.add_moving(push);
+    if (has_motion(scene.bodies[push.body])) pinched_.add_moving(push);
   });
   if (!pinched_.has_moving()) return;
   pinched_.sort();
@@ -80,9 +80,7 @@ void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& c
 void IslandBuilder::find_energy_sources(const ContactScene& scene, const SolverBodies& bodies,
                                         const ContactList& contacts) {
   const auto moves = [&](std::uint32_t index) {
-    const BodyRecord& body = scene.bodies[index];
-    return !body.is_dynamic() &&
-           (body.velocity != Vec3<Velocity>{} || body.spin != Vec3<Velocity>{});
+    return !scene.bodies[index].is_dynamic() && has_motion(scene.bodies[index]);
   };
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     const ContactRecord& record = scene.records[contact.record];

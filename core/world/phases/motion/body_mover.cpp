@@ -86,9 +86,9 @@ void BodyMover::end() {
       moved_.pieces(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
         for (const std::uint32_t body : moved_.bodies().subspan(first, end - first)) {
           BodyRecord& record = world_.bodies[body];
-          if (!solver_.keeps_recycling_pose(body, record))
-            world_.cache.renew_recycling_pose(body, record);
           const IslandTally* island = solver_.island_of(body);
+          if (!ContactSolver::keeps_recycling_pose(island, record))
+            world_.cache.renew_recycling_pose(body, record);
           const bool is_still = island != nullptr && island->moved.get() == 0;
           record.still_ticks = is_still ? left_out_.still.count_on(record) : 0;
         }

@@ -2,7 +2,6 @@
 // integrator moves them (pivot_integrator.h); the solver leaves out their joints.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,10 +30,8 @@ class Pendulums {
   template <class Test>
   void keep_joints(Test test) {
     const std::span<const JointLink> all = joints_to_solve();
-    // In place where the list is this one already: nothing is written before it is read.
-    if (!has_list_) solved_joints_.resize(all.size());
-    const auto kept = std::copy_if(all.begin(), all.end(), solved_joints_.begin(), test);
-    solved_joints_.erase(kept, solved_joints_.end());
+    if (!has_list_) solved_joints_.assign(all.begin(), all.end());
+    std::erase_if(solved_joints_, [&](const JointLink& link) { return !test(link); });
     has_list_ = true;
   }
 

@@ -5,16 +5,14 @@
 
 #include <lockstone/assert.h>
 
+#include "core/dynamics/body/motion.h"
+
 namespace lockstone {
 namespace {
 
 // An eighth of a second, and not so few ticks that chance decides.
 std::uint16_t ticks_of(std::int32_t tick_rate) {
   return static_cast<std::uint16_t>(std::max(tick_rate / 8, 4));
-}
-
-bool is_moving(const BodyRecord& body) {
-  return body.velocity != Vec3<Velocity>{} || body.spin != Vec3<Velocity>{};
 }
 
 // Below 61 µm/s along each axis.
@@ -84,8 +82,7 @@ void StillIslands::look_at_bodies() {
     if (!record.is_dynamic()) continue;
     const bool was_still = record.still_ticks > ticks_;
     if (record.still_ticks < ticks_ || !is_slow(record)) islands_.mark_active(body);
-    if (record.is_pushed() || bounces_.has_moved(body) || pendulums_.has(body) ||
-        (was_still && is_moving(record)))
+    if (bounces_.has_moved(body) || pendulums_.has(body) || (was_still && has_motion(record)))
       stir(body);
   }
 }
@@ -109,7 +106,7 @@ void StillIslands::connect(std::uint32_t a, std::uint32_t b, bool differs) {
     return world_.bodies[body].is_dynamic() && world_.bodies[body].is_awake();
   };
   const auto stands = [&](std::uint32_t body) {
-    return !world_.bodies[body].is_dynamic() && !is_moving(world_.bodies[body]);
+    return !world_.bodies[body].is_dynamic() && !has_motion(world_.bodies[body]);
   };
   const bool stirs = differs || !(is_solved(a) || stands(a)) || !(is_solved(b) || stands(b));
   for (const std::uint32_t body : {a, b}) {

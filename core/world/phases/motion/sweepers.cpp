@@ -48,8 +48,7 @@ void ContinuousCollision::wake_struck() {
   struck_.clear();
   for (const std::uint32_t body : world_.awake.list()) {
     const BodyRecord& record = world_.bodies[body];
-    const bool moves = record.velocity != Vec3<Velocity>{} || record.spin != Vec3<Velocity>{};
-    if (moves && (!record.is_dynamic() || record.is_trigger())) find_struck(body);
+    if (has_motion(record) && (!record.is_dynamic() || record.is_trigger())) find_struck(body);
   }
   for (const std::uint32_t body : struck_)
     waking_.list(body);
