@@ -57,9 +57,9 @@ struct IslandTally {
   std::int32_t velocity[3]{};          ///< the mean of its bodies, 1/16 m/s
   std::uint32_t fresh = 0;             ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;           ///< contacts whose mean impulse is several times a weight
-  SharedCount moved;                   ///< bodies whose poses have changed in the tick
-  SharedCount overloaded;  ///< contacts at rest under several times a body's weight; from
-                           ///< k_most_overloaded + 1 on it may be any greater number
+  SharedCount moved{};                 ///< bodies whose poses have changed in the tick
+  SharedCount overloaded{};  ///< contacts at rest under several times a body's weight; from
+                             ///< k_most_overloaded + 1 on it may be any greater number
 
   /// Enough bodies: with joints that only limit how they lie to each other, or of like masses.
   [[nodiscard]] bool may_be_loose() const {
