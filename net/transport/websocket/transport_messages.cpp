@@ -5,18 +5,14 @@
 #include "net/transport/websocket/packet_message.h"
 
 namespace lockstone::net {
-namespace {
-
-enum class Stage : std::uint8_t {
-  none,     // before the first connection, and after the end of each
-  calling,  // the WebSocket is not open yet
-  open,
-  leaving,  // the session has ended it; reliable packets may still be taken
-};
-
-}  // namespace
-
 struct MessageTransport::State {
+  enum class Stage : std::uint8_t {
+    none,     // before the first connection, and after the end of each
+    calling,  // the WebSocket is not open yet
+    open,
+    leaving,  // the session has ended it; reliable packets may still be taken
+  };
+
   [[nodiscard]] bool carries(ConnectionId id) const { return stage == Stage::open && id == number; }
 
   void end(RefuseReason reason) {
@@ -45,19 +41,19 @@ ConnectionId MessageTransport::open() {
   state.stats = {};
   state.number = (state.number + 1) & ((ConnectionId{1} << k_connection_bits) - 1);
   if (state.number == k_no_connection) state.number = 1;
-  state.stage = Stage::calling;
+  state.stage = State::Stage::calling;
   return state.number;
 }
 
 void MessageTransport::opened() {
-  if (state_->stage != Stage::calling) return;
-  state_->stage = Stage::open;
+  if (state_->stage != State::Stage::calling) return;
+  state_->stage = State::Stage::open;
   state_->events.add(TransportEventKind::connected, state_->number);
 }
 
 bool MessageTransport::receive(ByteView message) {
   State& state = *state_;
-  if (state.stage != Stage::open) return state.stage == Stage::leaving;
+  if (state.stage != State::Stage::open) return state.stage == State::Stage::leaving;
   const auto read = read_message(message);
   state.incoming_bytes += message.size();
   if (!read || state.incoming_bytes > k_max_waiting_bytes) {
@@ -82,17 +78,18 @@ ByteView MessageTransport::next_message() {
 
 void MessageTransport::take_message() {
   state_->next.clear();
-  if (state_->stage == Stage::leaving && state_->outgoing.empty()) state_->stage = Stage::none;
+  if (state_->stage == State::Stage::leaving && state_->outgoing.empty())
+    state_->stage = State::Stage::none;
 }
 
 void MessageTransport::closed(unsigned code) {
-  const bool known = state_->stage == Stage::open || state_->stage == Stage::calling;
+  const bool known = state_->stage == State::Stage::open || state_->stage == State::Stage::calling;
   if (known) state_->end(reason_of_close(code));
-  state_->stage = Stage::none;
+  state_->stage = State::Stage::none;
 }
 
 bool MessageTransport::is_open() const {
-  return state_->stage != Stage::none;
+  return state_->stage != State::Stage::none;
 }
 
 bool MessageTransport::poll(std::int64_t /*now_us*/, TransportEvent& event) {
@@ -119,7 +116,7 @@ void MessageTransport::disconnect(ConnectionId connection) {
   state_->events.forget(connection);
   if (!state_->carries(connection)) return;
   const bool rest = !state_->outgoing.empty() || !state_->next.empty();
-  state_->stage = rest ? Stage::leaving : Stage::none;
+  state_->stage = rest ? State::Stage::leaving : State::Stage::none;
 }
 
 TransportStats MessageTransport::stats(ConnectionId connection) const {
