@@ -37,7 +37,7 @@ void SubstepSchedule::plan_preparation(const TickWork& work) {
   clear();
   add({StageKind::fill_bodies}, work.rows, k_body_grain);
   add_serial(StageKind::begin_joints, work.has_joints);
-  const bool has_balls = work.ball_blocks != decltype(work.ball_blocks){};
+  const bool has_balls = work.ball_blocks != BlockCounts{};
   add({StageKind::place_joined}, has_balls ? work.joined : 0, k_body_grain);
   add_contacts(StageKind::fill_contacts, work);
   add_balls(StageKind::fill_balls, work);
@@ -98,20 +98,21 @@ void SubstepSchedule::add_serial(StageKind kind, bool is_due) {
 }
 
 // The overflow is one piece, which is solved one by one.
-void SubstepSchedule::add_contacts(StageKind kind, const TickWork& work, std::uint8_t substep) {
+void SubstepSchedule::add_colors(Stage stage, const BlockCounts& counts) {
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
-    add({kind, static_cast<std::uint8_t>(color), substep}, work.contact_blocks[color],
-        k_block_grain);
-    if (color == k_overflow_color && work.contact_blocks[color] != 0)
-      loops_.back().is_serial = true;
+    if (counts[color] == 0) continue;
+    stage.color = static_cast<std::uint8_t>(color);
+    add(stage, counts[color], k_block_grain);
+    if (color == k_overflow_color) loops_.back().is_serial = true;
   }
 }
 
+void SubstepSchedule::add_contacts(StageKind kind, const TickWork& work, std::uint8_t substep) {
+  add_colors({kind, 0, substep}, work.contact_blocks);
+}
+
 void SubstepSchedule::add_balls(StageKind kind, const TickWork& work) {
-  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
-    add({kind, static_cast<std::uint8_t>(color)}, work.ball_blocks[color], k_block_grain);
-    if (color == k_overflow_color && work.ball_blocks[color] != 0) loops_.back().is_serial = true;
-  }
+  add_colors({kind}, work.ball_blocks);
 }
 
 }  // namespace lockstone

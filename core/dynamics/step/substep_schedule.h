@@ -50,6 +50,9 @@ struct Stage {
   std::uint8_t substep = 0;
 };
 
+/// Numbers of blocks, by colour.
+using BlockCounts = std::array<std::uint32_t, k_graph_colors + 1>;
+
 /// How much there is of each kind in a tick; a loop over none is left out.
 struct TickWork {
   std::uint32_t rows = 0;       ///< of bodies
@@ -63,8 +66,8 @@ struct TickWork {
   bool watches_energy = false;
   bool watches_impulses = false;
   bool bounces = false;
-  std::array<std::uint32_t, k_graph_colors + 1> contact_blocks{};  ///< by colour
-  std::array<std::uint32_t, k_graph_colors + 1> ball_blocks{};     ///< of coloured ball joints
+  BlockCounts contact_blocks{};
+  BlockCounts ball_blocks{};  ///< of coloured ball joints
 };
 
 class SubstepSchedule {
@@ -95,6 +98,7 @@ class SubstepSchedule {
   void plan_substep(const TickWork& work, std::uint8_t substep);
   void add(Stage stage, std::uint32_t count, std::uint32_t grain);
   void add_serial(StageKind kind, bool is_due);
+  void add_colors(Stage stage, const BlockCounts& counts);
   void add_contacts(StageKind kind, const TickWork& work, std::uint8_t substep = 0);
   void add_balls(StageKind kind, const TickWork& work);
 
