@@ -14,7 +14,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 HEADERS = sorted((HERE / "c/lockstone_c").glob("*.h")) + [HERE.parent / "tool/include/lockstone/game_abi.h"]
 # The WebAssembly of tools/web has these: no sockets, no servers, no functions of the caller's.
 WEB_HEADERS = [HERE / f"c/lockstone_c/{name}.h" for name in
-               ("base", "units", "assets", "world", "bodies", "joints", "vehicles", "terrain", "events",
+               ("base", "units", "assets", "world", "bodies", "joints", "ragdolls", "vehicles", "terrain", "events",
                 "queries", "state", "games", "recorders", "transports", "sessions", "clients")]
 WEB_HEADERS += [HERE.parent / f"web/native/{name}.h" for name in ("lockstone_web", "lockstone_web_session")]
 WEB_ABSENT = re.compile(r"lks_(enet|network|game_create|issue|now)|_on_(sample|predict)$|lks_recorder_create$")

@@ -22,6 +22,13 @@ static void null_pointers_are_refused(void) {
   lks_pose read_pose;
   lks_quat turn;
   lks_hashes hashes;
+  lks_bone bone;
+  lks_bone_drive bone_drive;
+  lks_ragdoll_def ragdoll_def;
+  lks_ragdoll_pose ragdoll_pose;
+  lks_ragdoll ragdoll = {.size = sizeof ragdoll, .bone_count = 1};
+  lks_drag drag;
+  lks_joint joint = 0;
   lks_body out = 0;
   uint64_t number = 0;
   uint32_t flag = 0;
@@ -116,6 +123,50 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_set_vehicle(NULL, 0, NULL));
   NULLED(lks_drive_vehicle(NULL, 0, NULL));
   NULLED(lks_drive_vehicle(world, 0, NULL));
+  lks_bone_init(&bone);
+  lks_bone_drive_init(&bone_drive);
+  lks_ragdoll_def_init(&ragdoll_def, sizeof ragdoll_def);
+  lks_ragdoll_pose_init(&ragdoll_pose);
+  lks_drag_init(&drag, sizeof drag, body, body);
+  NULLED(lks_bone_init(NULL));
+  NULLED(lks_bone_drive_init(NULL));
+  NULLED(lks_ragdoll_def_init(NULL, sizeof ragdoll_def));
+  NULLED(lks_ragdoll_pose_init(NULL));
+  NULLED(lks_create_ragdoll(NULL, &ragdoll_def, &bone, 1, &ragdoll_pose, &ragdoll));
+  NULLED(lks_create_ragdoll(world, NULL, &bone, 1, &ragdoll_pose, &ragdoll));
+  NULLED(lks_create_ragdoll(world, &ragdoll_def, NULL, 1, &ragdoll_pose, &ragdoll));
+  NULLED(lks_create_ragdoll(world, &ragdoll_def, &bone, 1, NULL, &ragdoll));
+  NULLED(lks_create_ragdoll(world, &ragdoll_def, &bone, 1, &ragdoll_pose, NULL));
+  NULLED(lks_destroy_ragdoll(NULL, &ragdoll));
+  NULLED(lks_destroy_ragdoll(world, NULL));
+  NULLED(lks_drive_ragdoll(NULL, &ragdoll_def, &bone, 1, &ragdoll, &ragdoll_pose, &ragdoll_pose,
+                           &bone_drive, 1));
+  NULLED(lks_drive_ragdoll(world, NULL, &bone, 1, &ragdoll, &ragdoll_pose, &ragdoll_pose,
+                           &bone_drive, 1));
+  NULLED(lks_drive_ragdoll(world, &ragdoll_def, NULL, 1, &ragdoll, &ragdoll_pose, &ragdoll_pose,
+                           &bone_drive, 1));
+  NULLED(lks_drive_ragdoll(world, &ragdoll_def, &bone, 1, NULL, &ragdoll_pose, &ragdoll_pose,
+                           &bone_drive, 1));
+  NULLED(lks_drive_ragdoll(world, &ragdoll_def, &bone, 1, &ragdoll, NULL, &ragdoll_pose,
+                           &bone_drive, 1));
+  NULLED(lks_drive_ragdoll(world, &ragdoll_def, &bone, 1, &ragdoll, &ragdoll_pose, NULL,
+                           &bone_drive, 1));
+  NULLED(lks_drive_ragdoll(world, &ragdoll_def, &bone, 1, &ragdoll, &ragdoll_pose, &ragdoll_pose,
+                           NULL, 1));
+  NULLED(lks_ragdoll_pose_get(NULL, &bone, 1, &ragdoll, &ragdoll_pose));
+  NULLED(lks_ragdoll_pose_get(world, NULL, 1, &ragdoll, &ragdoll_pose));
+  NULLED(lks_ragdoll_pose_get(world, &bone, 1, NULL, &ragdoll_pose));
+  NULLED(lks_bone_poses(NULL, 1, &ragdoll_pose, &read_pose));
+  NULLED(lks_bone_poses(&bone, 1, NULL, &read_pose));
+  NULLED(lks_bone_poses(&bone, 1, &ragdoll_pose, NULL));
+  NULLED(lks_drag_init(NULL, sizeof drag, body, body));
+  NULLED(lks_create_drag(NULL, &drag, &v, &joint));
+  NULLED(lks_create_drag(world, NULL, &v, &joint));
+  NULLED(lks_create_drag(world, &drag, NULL, &joint));
+  NULLED(lks_create_drag(world, &drag, &v, NULL));
+  NULLED(lks_move_drag(NULL, 0, &drag, &v));
+  NULLED(lks_move_drag(world, 0, NULL, &v));
+  NULLED(lks_move_drag(world, 0, &drag, NULL));
   NULLED(lks_vehicle_get(NULL, 0, NULL));
   NULLED(lks_vehicle_get(world, 0, NULL));
   NULLED(lks_set_heights(NULL, 0, NULL, NULL, NULL, NULL));

@@ -30,13 +30,6 @@ lks_body_def default_body_def() {
   return raw;
 }
 
-Material material_of(const Surface& surface, lks_density density) {
-  return {surface.friction,           surface.restitution,
-          Density::from_raw(density), surface.rolling_resistance,
-          surface.friction_rule,      surface.restitution_rule,
-          surface.rolling_rule,       surface.tag};
-}
-
 void set_flags(BodyDef& def, std::uint32_t flags) {
   check_bits(flags, k_def_flags, "body.flags");
   def.is_trigger = (flags & LKS_BODY_TRIGGER) != 0;

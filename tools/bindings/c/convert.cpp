@@ -26,6 +26,13 @@ Surface surface_of(const lks_surface& surface, std::string_view field) {
           surface.tag};
 }
 
+Material material_of(const Surface& surface, lks_density density) {
+  return {surface.friction,           surface.restitution,
+          Density::from_raw(density), surface.rolling_resistance,
+          surface.friction_rule,      surface.restitution_rule,
+          surface.rolling_rule,       surface.tag};
+}
+
 SurfaceMotion surface_motion_of(const lks_surface_motion& motion) {
   return {vec<SolverVelocity>(motion.velocity), vec<Rate>(motion.turning)};
 }

@@ -47,6 +47,7 @@ template <class Handle>
 /// Throw for numbers that are no enumerators and bits that are no flags.
 [[nodiscard]] Shape shape_of(const lks_shape& shape, std::string_view field);
 [[nodiscard]] Surface surface_of(const lks_surface& surface, std::string_view field);
+[[nodiscard]] Material material_of(const Surface& surface, lks_density density);
 [[nodiscard]] SurfaceMotion surface_motion_of(const lks_surface_motion& motion);
 [[nodiscard]] AxisLocks locks_of(std::uint32_t bits, std::string_view field);
 [[nodiscard]] EventSettings events_of(std::uint32_t bits, lks_speed hit_speed,

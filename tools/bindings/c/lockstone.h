@@ -23,6 +23,7 @@
 #include "lockstone_c/joints.h"
 #include "lockstone_c/logs.h"
 #include "lockstone_c/queries.h"
+#include "lockstone_c/ragdolls.h"
 #include "lockstone_c/recorders.h"
 #include "lockstone_c/servers.h"
 #include "lockstone_c/sessions.h"

@@ -98,6 +98,12 @@ LKS_LOG_SAME = 0
 LKS_LOG_DIVERGED = 1
 LKS_LOG_CORRUPT = 2
 LKS_LOG_INCOMPATIBLE = 3
+LKS_MAX_BONES = 64
+LKS_NO_BONE = 4294967295
+LKS_BONE_LIMP = 0
+LKS_BONE_SPRUNG = 1
+LKS_BONE_DRIVEN = 2
+LKS_BONE_KINEMATIC = 3
 LKS_SERVER_LOBBY = 0
 LKS_SERVER_RUNNING = 1
 LKS_SERVER_FINISHING = 2
@@ -564,6 +570,78 @@ class lks_closest(Structure):
     ]
 
 
+class lks_pose(Structure):
+    _fields_ = [
+        ("position", lks_i64x3),
+        ("orientation", lks_quat),
+    ]
+
+
+class lks_bone(Structure):
+    _fields_ = [
+        ("parent", c_uint32),
+        ("joint", c_uint32),
+        ("shape", lks_shape),
+        ("pose", lks_pose),
+        ("joint_frame", lks_pose),
+        ("mass", c_int64),
+        ("friction", c_int64),
+        ("surface", lks_surface),
+        ("density", c_int32),
+        ("min_twist", c_int32),
+        ("max_twist", c_int32),
+        ("max_swing", c_int32),
+        ("reserved", c_uint32),
+    ]
+
+
+class lks_ragdoll_def(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("filter", lks_filter),
+        ("user_data", c_uint64),
+    ]
+
+
+class lks_ragdoll_pose(Structure):
+    _fields_ = [
+        ("root", lks_pose),
+        ("turns", lks_quat * 64),
+    ]
+
+
+class lks_ragdoll(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("bone_count", c_uint32),
+        ("bodies", c_uint64 * 64),
+        ("joints", c_uint64 * 64),
+        ("masses", c_int64 * 64),
+    ]
+
+
+class lks_bone_drive(Structure):
+    _fields_ = [
+        ("mode", c_uint32),
+        ("hertz", c_int32),
+        ("damping_ratio", c_int32),
+        ("reserved", c_uint32),
+        ("max_torque", c_int64),
+    ]
+
+
+class lks_drag(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("point", lks_i32x3),
+        ("ground", c_uint64),
+        ("body", c_uint64),
+        ("hertz", c_int32),
+        ("damping_ratio", c_int32),
+        ("max_force", c_int64),
+    ]
+
+
 class lks_recorder_def(Structure):
     _fields_ = [
         ("size", c_uint32),
@@ -684,13 +762,6 @@ class lks_link_faults(Structure):
         ("reorder_ppm", c_uint32),
         ("delay_us", c_int64),
         ("jitter_us", c_int64),
-    ]
-
-
-class lks_pose(Structure):
-    _fields_ = [
-        ("position", lks_i64x3),
-        ("orientation", lks_quat),
     ]
 
 
@@ -1028,6 +1099,18 @@ FUNCTIONS = {
     "lks_overlap_sphere": [c_int32, c_void_p, POINTER(lks_i64x3), c_int32, POINTER(lks_query_filter), POINTER(c_uint64), c_size_t, POINTER(c_size_t)],
     "lks_overlap_shape": [c_int32, c_void_p, POINTER(lks_shape), POINTER(lks_pose), POINTER(lks_query_filter), POINTER(c_uint64), c_size_t, POINTER(c_size_t)],
     "lks_closest_point": [c_int32, c_void_p, POINTER(lks_i64x3), c_int32, POINTER(lks_query_filter), POINTER(lks_closest)],
+    "lks_bone_init": [c_int32, POINTER(lks_bone)],
+    "lks_ragdoll_def_init": [c_int32, POINTER(lks_ragdoll_def), c_size_t],
+    "lks_ragdoll_pose_init": [c_int32, POINTER(lks_ragdoll_pose)],
+    "lks_bone_drive_init": [c_int32, POINTER(lks_bone_drive)],
+    "lks_create_ragdoll": [c_int32, c_void_p, POINTER(lks_ragdoll_def), POINTER(lks_bone), c_size_t, POINTER(lks_ragdoll_pose), POINTER(lks_ragdoll)],
+    "lks_destroy_ragdoll": [c_int32, c_void_p, POINTER(lks_ragdoll)],
+    "lks_drive_ragdoll": [c_int32, c_void_p, POINTER(lks_ragdoll_def), POINTER(lks_bone), c_size_t, POINTER(lks_ragdoll), POINTER(lks_ragdoll_pose), POINTER(lks_ragdoll_pose), POINTER(lks_bone_drive), c_size_t],
+    "lks_ragdoll_pose_get": [c_int32, c_void_p, POINTER(lks_bone), c_size_t, POINTER(lks_ragdoll), POINTER(lks_ragdoll_pose)],
+    "lks_bone_poses": [c_int32, POINTER(lks_bone), c_size_t, POINTER(lks_ragdoll_pose), POINTER(lks_pose)],
+    "lks_drag_init": [c_int32, POINTER(lks_drag), c_size_t, c_uint64, c_uint64],
+    "lks_create_drag": [c_int32, c_void_p, POINTER(lks_drag), POINTER(lks_i64x3), POINTER(c_uint64)],
+    "lks_move_drag": [c_int32, c_void_p, c_uint64, POINTER(lks_drag), POINTER(lks_i64x3)],
     "lks_recorder_def_init": [c_int32, POINTER(lks_recorder_def), c_size_t],
     "lks_recorder_create": [c_int32, POINTER(lks_recorder_def), c_void_p, c_char_p, POINTER(c_void_p)],
     "lks_recorder_create_in_memory": [c_int32, POINTER(lks_recorder_def), c_void_p, POINTER(c_void_p)],

@@ -373,6 +373,134 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_bone
+    {
+        public uint parent;
+        public uint joint;
+        public lks_shape shape;
+        public lks_pose pose;
+        public lks_pose joint_frame;
+        public long mass;
+        public long friction;
+        public lks_surface surface;
+        public int density;
+        public int min_twist;
+        public int max_twist;
+        public int max_swing;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_ragdoll_def
+    {
+        public uint size;
+        public lks_filter filter;
+        public ulong user_data;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_ragdoll_pose
+    {
+        public lks_pose root;
+        public lks_quat turns_0;
+        public lks_quat turns_1;
+        public lks_quat turns_2;
+        public lks_quat turns_3;
+        public lks_quat turns_4;
+        public lks_quat turns_5;
+        public lks_quat turns_6;
+        public lks_quat turns_7;
+        public lks_quat turns_8;
+        public lks_quat turns_9;
+        public lks_quat turns_10;
+        public lks_quat turns_11;
+        public lks_quat turns_12;
+        public lks_quat turns_13;
+        public lks_quat turns_14;
+        public lks_quat turns_15;
+        public lks_quat turns_16;
+        public lks_quat turns_17;
+        public lks_quat turns_18;
+        public lks_quat turns_19;
+        public lks_quat turns_20;
+        public lks_quat turns_21;
+        public lks_quat turns_22;
+        public lks_quat turns_23;
+        public lks_quat turns_24;
+        public lks_quat turns_25;
+        public lks_quat turns_26;
+        public lks_quat turns_27;
+        public lks_quat turns_28;
+        public lks_quat turns_29;
+        public lks_quat turns_30;
+        public lks_quat turns_31;
+        public lks_quat turns_32;
+        public lks_quat turns_33;
+        public lks_quat turns_34;
+        public lks_quat turns_35;
+        public lks_quat turns_36;
+        public lks_quat turns_37;
+        public lks_quat turns_38;
+        public lks_quat turns_39;
+        public lks_quat turns_40;
+        public lks_quat turns_41;
+        public lks_quat turns_42;
+        public lks_quat turns_43;
+        public lks_quat turns_44;
+        public lks_quat turns_45;
+        public lks_quat turns_46;
+        public lks_quat turns_47;
+        public lks_quat turns_48;
+        public lks_quat turns_49;
+        public lks_quat turns_50;
+        public lks_quat turns_51;
+        public lks_quat turns_52;
+        public lks_quat turns_53;
+        public lks_quat turns_54;
+        public lks_quat turns_55;
+        public lks_quat turns_56;
+        public lks_quat turns_57;
+        public lks_quat turns_58;
+        public lks_quat turns_59;
+        public lks_quat turns_60;
+        public lks_quat turns_61;
+        public lks_quat turns_62;
+        public lks_quat turns_63;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_ragdoll
+    {
+        public uint size;
+        public uint bone_count;
+        public fixed ulong bodies[64];
+        public fixed ulong joints[64];
+        public fixed long masses[64];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_bone_drive
+    {
+        public uint mode;
+        public int hertz;
+        public int damping_ratio;
+        public uint reserved;
+        public long max_torque;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_drag
+    {
+        public uint size;
+        public lks_i32x3 point;
+        public ulong ground;
+        public ulong body;
+        public int hertz;
+        public int damping_ratio;
+        public long max_force;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_recorder_def
     {
         public uint size;
@@ -890,6 +1018,12 @@ namespace Lockstone.Interop
         public const uint LKS_LOG_DIVERGED = 1;
         public const uint LKS_LOG_CORRUPT = 2;
         public const uint LKS_LOG_INCOMPATIBLE = 3;
+        public const uint LKS_MAX_BONES = 64;
+        public const uint LKS_NO_BONE = 4294967295;
+        public const uint LKS_BONE_LIMP = 0;
+        public const uint LKS_BONE_SPRUNG = 1;
+        public const uint LKS_BONE_DRIVEN = 2;
+        public const uint LKS_BONE_KINEMATIC = 3;
         public const uint LKS_SERVER_LOBBY = 0;
         public const uint LKS_SERVER_RUNNING = 1;
         public const uint LKS_SERVER_FINISHING = 2;
@@ -1322,6 +1456,42 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_closest_point(IntPtr world, lks_i64x3* point, int reach, lks_query_filter* filter, lks_closest* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_bone_init(lks_bone* bone);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_ragdoll_def_init(lks_ragdoll_def* def, UIntPtr size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_ragdoll_pose_init(lks_ragdoll_pose* pose);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_bone_drive_init(lks_bone_drive* drive);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_create_ragdoll(IntPtr world, lks_ragdoll_def* def, lks_bone* bones, UIntPtr bone_count, lks_ragdoll_pose* pose, lks_ragdoll* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_destroy_ragdoll(IntPtr world, lks_ragdoll* ragdoll);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_drive_ragdoll(IntPtr world, lks_ragdoll_def* def, lks_bone* bones, UIntPtr bone_count, lks_ragdoll* ragdoll, lks_ragdoll_pose* from, lks_ragdoll_pose* to, lks_bone_drive* drives, UIntPtr drive_count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_ragdoll_pose_get(IntPtr world, lks_bone* bones, UIntPtr bone_count, lks_ragdoll* ragdoll, lks_ragdoll_pose* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_bone_poses(lks_bone* bones, UIntPtr bone_count, lks_ragdoll_pose* pose, lks_pose* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_drag_init(lks_drag* drag, UIntPtr size, ulong ground, ulong body);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_create_drag(IntPtr world, lks_drag* drag, lks_i64x3* target, ulong* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_move_drag(IntPtr world, ulong joint, lks_drag* drag, lks_i64x3* target);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_recorder_def_init(lks_recorder_def* def, UIntPtr size);

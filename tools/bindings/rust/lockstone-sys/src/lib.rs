@@ -133,6 +133,12 @@ pub const LKS_LOG_SAME: u32 = 0;
 pub const LKS_LOG_DIVERGED: u32 = 1;
 pub const LKS_LOG_CORRUPT: u32 = 2;
 pub const LKS_LOG_INCOMPATIBLE: u32 = 3;
+pub const LKS_MAX_BONES: u32 = 64;
+pub const LKS_NO_BONE: u32 = 4294967295;
+pub const LKS_BONE_LIMP: u32 = 0;
+pub const LKS_BONE_SPRUNG: u32 = 1;
+pub const LKS_BONE_DRIVEN: u32 = 2;
+pub const LKS_BONE_KINEMATIC: u32 = 3;
 pub const LKS_SERVER_LOBBY: u32 = 0;
 pub const LKS_SERVER_RUNNING: u32 = 1;
 pub const LKS_SERVER_FINISHING: u32 = 2;
@@ -587,6 +593,65 @@ pub struct lks_closest {
     pub point: lks_position3,
     pub distance: lks_length,
     pub part: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_bone {
+    pub parent: u32,
+    pub joint: u32,
+    pub shape: lks_shape,
+    pub pose: lks_pose,
+    pub joint_frame: lks_pose,
+    pub mass: lks_mass,
+    pub friction: lks_force,
+    pub surface: lks_surface,
+    pub density: lks_density,
+    pub min_twist: lks_angle,
+    pub max_twist: lks_angle,
+    pub max_swing: lks_angle,
+    pub reserved: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_ragdoll_def {
+    pub size: u32,
+    pub filter: lks_filter,
+    pub user_data: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_ragdoll_pose {
+    pub root: lks_pose,
+    pub turns: [lks_quat; 64],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_ragdoll {
+    pub size: u32,
+    pub bone_count: u32,
+    pub bodies: [lks_body; 64],
+    pub joints: [lks_joint; 64],
+    pub masses: [lks_mass; 64],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_bone_drive {
+    pub mode: u32,
+    pub hertz: lks_number,
+    pub damping_ratio: lks_number,
+    pub reserved: u32,
+    pub max_torque: lks_force,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_drag {
+    pub size: u32,
+    pub point: lks_length3,
+    pub ground: lks_body,
+    pub body: lks_body,
+    pub hertz: lks_number,
+    pub damping_ratio: lks_number,
+    pub max_force: lks_force,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1050,6 +1115,18 @@ extern "C" {
     pub fn lks_overlap_sphere(world: *const lks_world, centre: *const lks_position3, radius: lks_length, filter: *const lks_query_filter, out: *mut lks_body, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_overlap_shape(world: *const lks_world, shape: *const lks_shape, pose: *const lks_pose, filter: *const lks_query_filter, out: *mut lks_body, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_closest_point(world: *const lks_world, point: *const lks_position3, reach: lks_length, filter: *const lks_query_filter, out: *mut lks_closest) -> lks_status;
+    pub fn lks_bone_init(bone: *mut lks_bone) -> lks_status;
+    pub fn lks_ragdoll_def_init(def: *mut lks_ragdoll_def, size: usize) -> lks_status;
+    pub fn lks_ragdoll_pose_init(pose: *mut lks_ragdoll_pose) -> lks_status;
+    pub fn lks_bone_drive_init(drive: *mut lks_bone_drive) -> lks_status;
+    pub fn lks_create_ragdoll(world: *mut lks_world, def: *const lks_ragdoll_def, bones: *const lks_bone, bone_count: usize, pose: *const lks_ragdoll_pose, out: *mut lks_ragdoll) -> lks_status;
+    pub fn lks_destroy_ragdoll(world: *mut lks_world, ragdoll: *const lks_ragdoll) -> lks_status;
+    pub fn lks_drive_ragdoll(world: *mut lks_world, def: *const lks_ragdoll_def, bones: *const lks_bone, bone_count: usize, ragdoll: *mut lks_ragdoll, from: *const lks_ragdoll_pose, to: *const lks_ragdoll_pose, drives: *const lks_bone_drive, drive_count: usize) -> lks_status;
+    pub fn lks_ragdoll_pose_get(world: *const lks_world, bones: *const lks_bone, bone_count: usize, ragdoll: *const lks_ragdoll, out: *mut lks_ragdoll_pose) -> lks_status;
+    pub fn lks_bone_poses(bones: *const lks_bone, bone_count: usize, pose: *const lks_ragdoll_pose, out: *mut lks_pose) -> lks_status;
+    pub fn lks_drag_init(drag: *mut lks_drag, size: usize, ground: lks_body, body: lks_body) -> lks_status;
+    pub fn lks_create_drag(world: *mut lks_world, drag: *const lks_drag, target: *const lks_position3, out: *mut lks_joint) -> lks_status;
+    pub fn lks_move_drag(world: *mut lks_world, joint: lks_joint, drag: *const lks_drag, target: *const lks_position3) -> lks_status;
     pub fn lks_recorder_def_init(def: *mut lks_recorder_def, size: usize) -> lks_status;
     pub fn lks_recorder_create(def: *const lks_recorder_def, simulation: *const lks_simulation, path: *const c_char, out: *mut *mut lks_recorder) -> lks_status;
     pub fn lks_recorder_create_in_memory(def: *const lks_recorder_def, simulation: *const lks_simulation, out: *mut *mut lks_recorder) -> lks_status;
