@@ -1,0 +1,94 @@
+#include "core/geometry/distance/epa/taper_overlap.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/geometry/distance/cores/rim_point_gap.h"
+#include "core/geometry/distance/cores/taper_point_gap.h"
+#include "core/geometry/distance/epa/face_directions.h"
+#include "core/geometry/distance/epa/ring_search.h"
+
+namespace lockstone::geometry {
+namespace {
+
+constexpr Fine k_any_depth = std::numeric_limits<Fine>::max();
+
+/// The directions that leave the side of a tapered core; `sign` turns them from A to B.
+Ring ring_of(const ConvexCore& taper, int sign) {
+  const RawVec axis = vertex_of(taper, 1) - vertex_of(taper, 0);
+  const auto length = static_cast<std::int64_t>(norm(axis.x, axis.y, axis.z));
+  const Fine fall = taper.swell[0] - taper.swell[1];
+  const Int128 square = multiply_wide(length, length) - multiply_wide(fall, fall);
+  const auto rise = static_cast<Fine>(isqrt128(square.bits()));
+  const Vec3<Unit> slope = direction_of(rise, fall, 0);
+  const Vec3<Unit> up = direction_of(axis.x, axis.y, axis.z);
+  return {signed_axis(up, sign), slope.y, slope.x};
+}
+
+class WaysOut {
+ public:
+  explicit WaysOut(const GapQuery& query) : query_(query), pair_(query.fine_pair()) {}
+
+  void take(const Vec3<Unit>& n) {
+    const Fine depth = dot(deepest_a(n) - deepest_b(n), n);
+    if (depth >= depth_) return;
+    depth_ = depth;
+    normal_ = n;
+  }
+
+  /// The ways out through faces, sides and the taper's own side; `sign` is 1 where it is A.
+  void take_all(const ConvexCore& taper, const ConvexCore& other, int sign) {
+    for_each_face_direction(taper, [&](const Vec3<Unit>& n) { take(n); });
+    for_each_face_direction(other, [&](const Vec3<Unit>& n) { take(signed_axis(n, -sign)); });
+    for (const int end : {0, 1})
+      take_nearest(vertex_of(taper, end), other, sign);
+    constexpr Fine k_tolerance = Fine{1} << (k_fine_bits - 21);  // half a micrometre
+    take(least_on_ring(query_, pair_.offset, ring_of(taper, sign), k_any_depth, k_tolerance));
+  }
+
+  [[nodiscard]] CoreOverlap best() const {
+    CoreGap gap{normal_, std::max(Fine{0}, depth_), deepest_a(normal_), deepest_b(normal_)};
+    const RawVec apart = along(normal_, gap.distance);
+    // A corner or a ball stays, the other point moves within its face or side.
+    const bool keep_a =
+        is_tapered(pair_.a) ? !is_side_of(pair_.a, normal_) : is_side_of(pair_.b, -normal_);
+    (keep_a ? gap.on_b : gap.on_a) = keep_a ? gap.on_a - apart : gap.on_b + apart;
+    return {gap, pair_.a.rims.count == 0 && pair_.b.rims.count == 0};
+  }
+
+ private:
+  [[nodiscard]] RawVec deepest_a(const Vec3<Unit>& n) const { return farthest_point(pair_.a, n); }
+  [[nodiscard]] RawVec deepest_b(const Vec3<Unit>& n) const {
+    return pair_.offset + farthest_point(pair_.b, -n);
+  }
+
+  /// The way to the surface that is nearest to a ball's centre, of solids of revolution.
+  void take_nearest(const RawVec& centre, const ConvexCore& other, int sign) {
+    const RawVec point = centre - (sign > 0 ? pair_.offset : -pair_.offset);
+    if (other.rims.count != 0) take(signed_axis(rim_point_gap(other.rims, point).normal, -sign));
+    if (is_taper(other)) take(signed_axis(taper_point_gap(other, point).gap.normal, -sign));
+  }
+
+  /// Whether both balls reach equally far along n.
+  static bool is_side_of(const ConvexCore& taper, const Vec3<Unit>& n) {
+    const Fine low = dot(vertex_of(taper, 0), n) + taper.swell[0];
+    const Fine high = dot(vertex_of(taper, 1), n) + taper.swell[1];
+    return magnitude_of(high - low) < k_no_distance;
+  }
+
+  const GapQuery& query_;
+  FinePair pair_;
+  Vec3<Unit> normal_ = k_concentric_normal;
+  Fine depth_ = k_any_depth;
+};
+
+}  // namespace
+
+CoreOverlap taper_overlap(const GapQuery& query) {
+  WaysOut ways(query);
+  if (is_tapered(query.a())) ways.take_all(query.a(), query.b(), 1);
+  if (is_tapered(query.b())) ways.take_all(query.b(), query.a(), -1);
+  return ways.best();
+}
+
+}  // namespace lockstone::geometry
