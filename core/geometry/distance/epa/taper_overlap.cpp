@@ -62,10 +62,10 @@ class WaysOut {
     return pair_.offset + farthest_point(pair_.b, -n);
   }
 
-  /// The way to the surface that is nearest to a ball's centre, of solids of revolution.
+  /// The way to the side, of solids of revolution, where it is nearest to a ball's centre.
   void take_nearest(const RawVec& centre, const ConvexCore& other, int sign) {
     const RawVec point = centre - (sign > 0 ? pair_.offset : -pair_.offset);
-    if (other.rims.count != 0) take(signed_axis(rim_point_gap(other.rims, point).normal, -sign));
+    if (other.rims.count != 0) take(signed_axis(rim_side_normal(other.rims, point), -sign));
     if (is_taper(other)) take(signed_axis(taper_point_gap(other, point).gap.normal, -sign));
   }
 
