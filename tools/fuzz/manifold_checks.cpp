@@ -61,7 +61,8 @@ void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
 
 // The deepest point of a capsule's core inside something with faces is not on the surfaces.
 bool has_core_inside(const Pair& pair, double separation) {
-  if (!pair.has(Kind::capsule) || pair.half_space() != nullptr) return false;
+  const bool cored = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule);
+  if (!cored || pair.half_space() != nullptr) return false;
   const bool faces =
       pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle) || pair.has_rims();
   return faces && separation < 2 * tolerance(pair) - pair.radii();
