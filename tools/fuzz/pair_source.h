@@ -87,7 +87,6 @@ struct Pair {
   /// The length that errors scale with: of cores and offset.
   [[nodiscard]] double size() const;
   [[nodiscard]] double radii() const { return a.radius + b.radius; }
-  [[nodiscard]] bool is_tapered() const { return kind == Kind::tapered_capsule; }
   [[nodiscard]] bool has_rims() const { return a.has_rims() || b.has_rims(); }
   [[nodiscard]] double rim_radii() const { return a.rim_radius() + b.rim_radius(); }
 };
