@@ -90,6 +90,7 @@ void tapered_core(const PosedShape& shape, ConvexCore& core) {
   const Fine middle = (ends.low + ends.high) / 2;
   core.radius = min(ends.low_radius, ends.high_radius);
   core.reference = along(shape.rotation.y, middle);
+  if (ends.low == ends.high) return;  // a ball
   add_generator(core, along(shape.rotation.y, ends.high - middle));
   core.swell = {fine(ends.low_radius - core.radius), fine(ends.high_radius - core.radius)};
   for (int k = 0; k < 3; ++k)
@@ -104,16 +105,17 @@ bool tapered_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
   return taper_point_gap(core, fine(point)).gap.distance <= fine(core.radius + slack);
 }
 
-/// Both ends where n is within about 1/32 of the side's normal, else the one that n points to.
+/// Both ends where the side leans by less than 1/32 from a plane across n, else the end that n points
+/// to.
 void tapered_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
-  constexpr std::int32_t k_steep = std::int32_t{1} << (Unit::frac_bits - 5);
   const TaperedEnds ends = tapered_ends(shape.shape.size);
+  const std::int32_t steep = ends.rise().raw / 32;
   const Unit lean = rotate_inverse(shape.rotation, n).y - ends.slope();
   const auto add_end = [&](Fine height, Length radius, std::uint32_t id) {
     out.add(rotate(shape.rotation, RawVec{0, height, 0}) + along(n, radius), id);
   };
-  if (lean.raw <= k_steep) add_end(ends.low, ends.low_radius, 0);
-  if (lean.raw >= -k_steep && ends.high != ends.low) add_end(ends.high, ends.high_radius, 1);
+  if (lean.raw <= steep) add_end(ends.low, ends.low_radius, 0);
+  if (lean.raw >= -steep && ends.high != ends.low) add_end(ends.high, ends.high_radius, 1);
   if (out.count == 0) add_end(ends.low, ends.low_radius, 0);  // a ball
 }
 

@@ -39,7 +39,7 @@ Point on_axis(const BodyView& view, double height) {
           lane(view.position.z, axis.z)};
 }
 
-double apart(const Point& a, const Point& b) {
+double club_gap(const Point& a, const Point& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
@@ -66,8 +66,8 @@ TEST(TaperedCapsuleBodies, LieStillOnTheirSide) {
   const BodyView first = world.body(body);
   test::step(world, 1200);
   const BodyView last = world.body(body);
-  EXPECT_LT(apart(on_axis(first, -1), on_axis(last, -1)), 1e-4);
-  EXPECT_LT(apart(on_axis(first, 1), on_axis(last, 1)), 1e-4);
+  EXPECT_LT(club_gap(on_axis(first, -1), on_axis(last, -1)), 1e-4);
+  EXPECT_LT(club_gap(on_axis(first, 1), on_axis(last, 1)), 1e-4);
   EXPECT_NEAR(metres(last.position.y), metres(lying_club().position.y), 1e-4);
 }
 
@@ -89,9 +89,9 @@ TEST(TaperedCapsuleBodies, RollAroundTheirApex) {
   for (int tick = 0; tick < 600; ++tick) {
     test::step(world, 1);
     const Point here = on_axis(world.body(body), 0);
-    travelled += apart(here, before);
+    travelled += club_gap(here, before);
     before = here;
-    ASSERT_LT(apart(on_axis(world.body(body), apex), start), 0.02) << tick;
+    ASSERT_LT(club_gap(on_axis(world.body(body), apex), start), 0.02) << tick;
   }
   EXPECT_NEAR(travelled, 10 * metres(def.position.y), 0.05);
 }
@@ -116,7 +116,7 @@ AssetPtr flat_mesh() {
   return Mesh::build(def).mesh;
 }
 
-AssetPtr flat_field() {
+AssetPtr level_field() {
   const std::vector<Length> heights(13 * 13);
   HeightFieldDef def;
   def.columns = def.rows = 13;
@@ -125,7 +125,7 @@ AssetPtr flat_field() {
 }
 
 /// A world with one static asset, whose middle is over the origin's axis.
-World world_on(const AssetPtr& asset, Position shift) {
+World world_of_asset(const AssetPtr& asset, Position shift) {
   const WorldDef def{.body_capacity = 64, .sleep_ms = 0};
   World world =
       std::move(World::create(def, std::make_shared<AssetSet>(std::vector{asset}))).value();
@@ -139,7 +139,7 @@ World world_on(const AssetPtr& asset, Position shift) {
 
 TEST(TaperedCapsuleBodies, LieAndRollOnTrianglesAsOnABox) {
   for (const bool mesh : {true, false}) {
-    World world = mesh ? world_on(flat_mesh(), {}) : world_on(flat_field(), 6_m);
+    World world = mesh ? world_of_asset(flat_mesh(), {}) : world_of_asset(level_field(), 6_m);
     BodyDef def = lying_club();
     def.material.friction = Coefficient::from_integer(1);
     def.angular_velocity.x.raw = std::int64_t{1} << AngularVelocity::frac_bits;
@@ -151,14 +151,14 @@ TEST(TaperedCapsuleBodies, LieAndRollOnTrianglesAsOnABox) {
       test::step(world, 1);
       ASSERT_NEAR(metres(world.position(body).y), metres(def.position.y), 2e-3)
           << mesh << " " << tick;
-      ASSERT_LT(apart(on_axis(world.body(body), apex), start), 0.05) << mesh << " " << tick;
+      ASSERT_LT(club_gap(on_axis(world.body(body), apex), start), 0.05) << mesh << " " << tick;
     }
   }
 }
 
 TEST(TaperedCapsuleBodies, ComeToRestOnTriangles) {
   for (const bool mesh : {true, false}) {
-    World world = mesh ? world_on(flat_mesh(), {}) : world_on(flat_field(), 6_m);
+    World world = mesh ? world_of_asset(flat_mesh(), {}) : world_of_asset(level_field(), 6_m);
     test::Random random(test::run_seed());
     std::vector<BodyHandle> bodies;
     for (int i = 0; i < 12; ++i) {

@@ -7,6 +7,7 @@
 #include "core/geometry/distance/cores/taper_point_gap.h"
 #include "core/geometry/distance/epa/face_directions.h"
 #include "core/geometry/distance/epa/ring_search.h"
+#include "core/geometry/numeric/segment.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -27,7 +28,7 @@ Ring ring_of(const ConvexCore& taper, int sign) {
 
 class WaysOut {
  public:
-  explicit WaysOut(const GapQuery& query) : query_(query), pair_(query.fine_pair()) {}
+  explicit WaysOut(GapQuery& query) : query_(query), pair_(query.fine_pair()) {}
 
   void take(const Vec3<Unit>& n) {
     const Fine depth = dot(deepest_a(n) - deepest_b(n), n);
@@ -46,9 +47,27 @@ class WaysOut {
     take(least_on_ring(query_, pair_.offset, ring_of(taper, sign), k_any_depth, k_tolerance));
   }
 
+  void refine() {
+    constexpr int k_rounds = 3;
+    const RawVec offset = pair_.offset;
+    for (int round = 0; round < k_rounds; ++round) {
+      const Fine before = depth_;
+      const Fine clearance = Fine{1} << (query_.lattice().shift + 20);
+      if (!query_.find(offset + along(normal_, depth_ + clearance))) break;
+      take(query_.gap().normal);
+      if (depth_ == before) break;
+    }
+    query_.return_to(offset);
+  }
+
   [[nodiscard]] CoreOverlap best() const {
-    CoreGap gap{normal_, std::max(Fine{0}, depth_), deepest_a(normal_), deepest_b(normal_)};
+    CoreGap gap{normal_, depth_, deepest_a(normal_), deepest_b(normal_)};
     const RawVec apart = along(normal_, gap.distance);
+    if (do_sides_cross()) {
+      gap.on_a = on_crossing();
+      gap.on_b = gap.on_a - apart;
+      return {gap, true};
+    }
     // A corner or a ball stays, the other point moves within its face or side.
     const bool keep_a =
         is_tapered(pair_.a) ? !is_side_of(pair_.a, normal_) : is_side_of(pair_.b, -normal_);
@@ -57,6 +76,30 @@ class WaysOut {
   }
 
  private:
+  /// Whether each is deepest along a line of its side.
+  [[nodiscard]] bool do_sides_cross() const {
+    return is_axis(pair_.a) && is_axis(pair_.b) && is_side_of(pair_.a, normal_) &&
+           is_side_of(pair_.b, -normal_);
+  }
+
+  static bool is_axis(const ConvexCore& core) {
+    return is_taper(core) && core.generator_count == 1;
+  }
+
+  /// Of A's side, over the point of its axis that B's axis crosses.
+  [[nodiscard]] RawVec on_crossing() const {
+    const auto segment_of = [](const ConvexCore& core, const RawVec& at) {
+      const RawVec& g = core.generators[0];
+      const Direction d = direction(g.x, g.y, g.z);
+      return Segment{core.reference + at, d.unit,
+                     Length::from_raw(static_cast<std::int32_t>(d.length >> k_fine_per_length))};
+    };
+    const Segment a = segment_of(pair_.a, {}), b = segment_of(pair_.b, pair_.offset);
+    const RawVec point = point_at(a, closest_parameters(a, b).on_a);
+    const RawVec side = deepest_a(normal_) - point;
+    return point + along(normal_, dot(side, normal_));
+  }
+
   [[nodiscard]] RawVec deepest_a(const Vec3<Unit>& n) const { return farthest_point(pair_.a, n); }
   [[nodiscard]] RawVec deepest_b(const Vec3<Unit>& n) const {
     return pair_.offset + farthest_point(pair_.b, -n);
@@ -76,7 +119,7 @@ class WaysOut {
     return magnitude_of(high - low) < k_no_distance;
   }
 
-  const GapQuery& query_;
+  GapQuery& query_;
   FinePair pair_;
   Vec3<Unit> normal_ = k_concentric_normal;
   Fine depth_ = k_any_depth;
@@ -84,10 +127,11 @@ class WaysOut {
 
 }  // namespace
 
-CoreOverlap taper_overlap(const GapQuery& query) {
+CoreOverlap taper_overlap(GapQuery& query) {
   WaysOut ways(query);
   if (is_tapered(query.a())) ways.take_all(query.a(), query.b(), 1);
   if (is_tapered(query.b())) ways.take_all(query.b(), query.a(), -1);
+  ways.refine();
   return ways.best();
 }
 

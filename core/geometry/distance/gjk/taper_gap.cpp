@@ -7,6 +7,8 @@
 #include "core/geometry/distance/cores/taper_point_gap.h"
 #include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/numeric/normals.h"
+#include "core/geometry/numeric/wide_vectors.h"
+#include "core/math/roots.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -27,6 +29,7 @@ struct Nearest {
   bool apart = false;
   Fine rise = 0;  ///< by how much the gap falls from end to end, with the normal of this place
   CoreGap gap{};  ///< of the ball's centre from the other core
+  Simplex features{};
 };
 
 /// An end of the part of the axis that holds the least, and a weight that the method halves.
@@ -54,10 +57,9 @@ class TaperSearch {
     const Nearest nearest = least();
     if (!nearest.apart) return {};
     const Fine swell = taper_.swell[0] + saturated_product(growth_, nearest.place, k_place_bits);
-    TaperGap result{true, nearest.gap, simplex_of({nearest.gap.on_b - nearest.gap.on_a, 0, 0})};
+    TaperGap result{true, nearest.gap, nearest.features};
     result.gap.distance -= swell;
     result.gap.on_a = result.gap.on_a + along(nearest.gap.normal, swell);
-    if (query_) result.features = query_->features();
     for (DifferenceVertex& vertex : result.features.vertices)
       vertex.a = nearest.place < k_second_end / 2 ? 0 : 1;
     return result;
@@ -79,21 +81,37 @@ class TaperSearch {
     const Fine rounding = (magnitude_of(axis_.x) + magnitude_of(axis_.y) + magnitude_of(axis_.z)) >>
                           Unit::frac_bits;
     int side = 0;  // of the last step
-    Nearest middle = low.nearest;
+    Nearest middle;
     for (int step = 0; step < k_most_steps; ++step) {
       const Place width = high.nearest.place - low.nearest.place, least = width / 1024;
-      if (width <= k_narrow) break;
+      if (width <= k_narrow) return at_leap(low.nearest, high.nearest);
       const Place by = step % 4 == 3 ? width / 2
                                      : round_divide(multiply_wide(width, low.weight),
                                                     raw::add(low.weight, high.weight));
       middle = nearest_at(low.nearest.place + std::clamp(by, least, width - least));
-      if (!middle.apart || magnitude_of(middle.rise) <= rounding) break;
+      if (!middle.apart || magnitude_of(middle.rise) <= rounding) return middle;
       const int next = middle.rise > 0 ? 1 : -1;
       (next > 0 ? low : high) = Bracket(middle);
       if (next == side) (next > 0 ? high : low).weight = (next > 0 ? high : low).weight / 2 + 1;
       side = next;
     }
-    return middle;
+    return at_leap(low.nearest, high.nearest);
+  }
+
+  /// Of two places side by side, where the derivative leaps over zero: by a little from one feature
+  /// of the lattice to the next, and a normal between both is level; by more where the axis touches
+  /// the other core, and then the place says nothing.
+  [[nodiscard]] static Nearest at_leap(const Nearest& low, const Nearest& high) {
+    constexpr std::int64_t k_alike = std::int64_t{1} << (Unit::frac_bits - 13);
+    Nearest result = low;
+    const RawVec a = raws_of(low.gap.normal), b = raws_of(high.gap.normal), leap = b - a;
+    result.apart = std::max({magnitude_of(leap.x), magnitude_of(leap.y), magnitude_of(leap.z)}) < k_alike;
+    const auto lane = [&](std::int64_t from, std::int64_t by) {
+      return from + round_divide(multiply_wide(by, low.rise), raw::add(low.rise, -high.rise));
+    };
+    result.gap.normal = direction_of(lane(a.x, leap.x), lane(a.y, leap.y), lane(a.z, leap.z));
+    result.gap.distance = dot(low.gap.on_b - low.gap.on_a, result.gap.normal);
+    return result;
   }
 
   Nearest nearest_at(Place place) {
@@ -102,8 +120,17 @@ class TaperSearch {
     const RawVec centre = first_ + part_of(axis_, place);
     result.apart = find_gap(centre, result.gap);
     result.gap.on_a = centre;
+    result.features = query_ ? query_->features() : all_of_other();
     result.rise = dot(axis_, result.gap.normal) + growth_;
     return result;
+  }
+
+  /// The axis of another taper; of rims a vertex that stands for none.
+  [[nodiscard]] Simplex all_of_other() const {
+    Simplex all;
+    all.count = other_.generator_count + 1;
+    all.vertices[1].b = 1;
+    return all;
   }
 
   bool find_gap(const RawVec& centre, CoreGap& gap) {
