@@ -202,7 +202,9 @@ TEST(PartBelow, OfRoundSolidsIsThatOfTheirSlices) {
           "capsule");
     const Shape taper = Shape::tapered_capsule(height, radius, random_size(random));
     const TaperedEnds ends = tapered_ends(taper.size);
-    const auto height_of = [](Fine y) { return std::ldexp(static_cast<long double>(y), -k_fine_bits); };
+    const auto height_of = [](Fine y) {
+      return std::ldexp(static_cast<long double>(y), -k_fine_bits);
+    };
     const long double low = height_of(ends.low), high = height_of(ends.high),
                       a = value(ends.low_radius), b = value(ends.high_radius);
     const auto outline = [&](long double y) {
@@ -310,9 +312,8 @@ TEST(Shadow, OfRoundSolidsIsTheAreaThatTheirReachEncloses) {
           "cone");
     const Length top = random_size(random);
     const Shape taper = Shape::tapered_capsule(height, radius, top);
-    check(taper, enclosed([&](long double, long double y) {
-            return std::max(r, value(top) + h * s * y);
-          }),
+    check(taper,
+          enclosed([&](long double, long double y) { return std::max(r, value(top) + h * s * y); }),
           "tapered capsule");
   }
 }

@@ -9,9 +9,9 @@
 namespace lockstone::fuzz {
 namespace {
 
-constexpr std::array<std::string_view, k_kinds> k_names{
-    "sphere", "capsule", "box", "hull", "triangle", "half-space", "cylinder", "cone",
-    "tapered-capsule"};
+constexpr std::array<std::string_view, k_kinds> k_names{"sphere",   "capsule",  "box",
+                                                        "hull",     "triangle", "half-space",
+                                                        "cylinder", "cone",     "tapered-capsule"};
 
 std::vector<Real3> own_core(const Body& body) {
   if (body.polytope != nullptr) {

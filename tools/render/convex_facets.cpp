@@ -16,9 +16,9 @@ std::shared_ptr<const Hull> hull_within(const Shape& shape) {
   geometry::make_core({shape, still}, core);
   const bool tapered = core.rims.count == 0;
   const int sides = tapered ? 16 : 24;
-  const std::vector<double> rises =
-      tapered ? std::vector<double>{-8, -2, -0.8, -0.3, 0.3, 0.8, 2, 8}
-              : std::vector<double>{-4, -0.5, 0.5, 4};
+  const std::vector<double> rises = tapered
+                                        ? std::vector<double>{-8, -2, -0.8, -0.3, 0.3, 0.8, 2, 8}
+                                        : std::vector<double>{-4, -0.5, 0.5, 4};
   std::vector<Vec3<Length>> points;
   for (int i = 0; i < sides; ++i) {
     const double angle = 2 * M_PI * i / sides;

@@ -73,8 +73,8 @@ void build_cones(World& world, std::uint64_t seed) {
   }
 }
 
-// Clubs: one rolls in a circle about its apex, one is thrown at a wall of bricks, one spins upright,
-// and a pile falls on a slope.
+// Clubs: one rolls in a circle about its apex, one is thrown at a wall of bricks, one spins
+// upright, and a pile falls on a slope.
 void build_clubs(World& world, std::uint64_t seed) {
   add_ground(world, 20_m);
   const Shape club = Shape::tapered_capsule(1_m, 0.35_m, 0.15_m);

@@ -105,8 +105,8 @@ bool tapered_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
   return taper_point_gap(core, fine(point)).gap.distance <= fine(core.radius + slack);
 }
 
-/// Both ends where the side leans by less than 1/32 from a plane across n, else the end that n points
-/// to.
+/// Both ends where the side leans by less than 1/32 from a plane across n, else the end that n
+/// points to.
 void tapered_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
   const TaperedEnds ends = tapered_ends(shape.shape.size);
   const std::int32_t steep = ends.rise().raw / 32;
@@ -150,9 +150,7 @@ ShapeRayHit tapered_ray(const Shape& shape, const Mat3& rotation, const Vec3<Len
   if (taper_point_gap(core, ray.start).gap.distance <= fine(core.radius)) return {true, {}, {}};
   const TaperedEnds ends = tapered_ends(shape.size);
   const Unit out = ends.rise(), up = ends.slope();
-  const auto touched = [&](Fine height, Length radius) {
-    return height + (up * radius).raw;
-  };
+  const auto touched = [&](Fine height, Length radius) { return height + (up * radius).raw; };
   RimHit best;
   if (ends.low != ends.high)
     best = meet_side({out, up, ends.low, fine(ends.low_radius)}, ray,

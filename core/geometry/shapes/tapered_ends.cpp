@@ -1,4 +1,5 @@
-// With radii a and b, distance L of the centres and s = (a − b) / L, where all else is a polynomial:
+// With radii a and b, distance L of the centres and s = (a − b) / L, where all else is a
+// polynomial:
 //   volume          π/3 (L q2 (1 + s²) + 2 (a³ + b³))
 //   ∫ y             π/12 (1 − s)² L (L (a² + 2ab + 3b²) + (2 + s)(a + b)(a² + b²))
 //   ∫ y²            π/30 (L³ (a² + 3ab + 6b²) + 20 L² b³ + L g + 4 (a⁵ + b⁵) + s³ L² f + s⁴ L q4)
@@ -116,7 +117,7 @@ class TaperedForm {
 
   std::uint64_t radius_;
   std::uint64_t length_ = 0;
-  std::int64_t a_ = 0, b_ = 0;  // radii, of the greater
+  std::int64_t a_ = 0, b_ = 0;         // radii, of the greater
   std::int64_t rho_ = 0, lambda_ = 0;  // that and the distance of the centres, of the greater
   std::int64_t s_ = 0, square_ = 0;
   std::int64_t weight_ = 0;

@@ -28,7 +28,7 @@ struct TaperedEnds {
 /// Fraction bits of the shares below.
 inline constexpr int k_tapered_bits = 54;
 
-/// The integrals over the hull, as shares of powers of its sizes.
+/// The integrals over the hull, as shares of products of its sizes.
 struct TaperedMass {
   std::uint64_t radius = 0;  ///< R, the greater, in the unit of the sizes
   std::uint64_t length = 0;  ///< M, the greater of R and the distance of the centres

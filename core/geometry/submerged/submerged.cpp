@@ -193,7 +193,7 @@ std::int64_t cone_shadow(std::int64_t r, std::int64_t h, std::int64_t along, std
   return product_q30(r, raw::round_shift(product_q30(minor, angle), 2) + side);
 }
 
-// Of two discs and what is between tangents to both, or of the greater one that holds the other.
+// Of two discs and the part between the tangents to both, or of the greater disc that holds the other.
 std::int64_t tapered_shadow(const TaperedEnds& ends, int scale, std::int64_t across) {
   const ScaledEnds at = scaled_ends(ends, scale);
   const std::int64_t r = at.low_radius, s = at.high_radius, greater = std::max(r, s);

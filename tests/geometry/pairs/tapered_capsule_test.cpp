@@ -24,7 +24,9 @@ struct RealTaper {
   Real centre = 0;  ///< of mass, above the lower ball's
 
   explicit RealTaper(const Shape& shape)
-      : low_radius(real(shape.size.x)), high_radius(real(shape.size.z)), length(real(shape.size.y)) {
+      : low_radius(real(shape.size.x)),
+        high_radius(real(shape.size.z)),
+        length(real(shape.size.y)) {
     const Real greater = std::max(low_radius, high_radius);
     if (std::fabs(low_radius - high_radius) >= length) {
       low_radius = high_radius = greater;
@@ -134,10 +136,9 @@ TEST(TaperedCapsules, HaveTheInertiaOfTheIntegral) {
     const Real mass = truth.integral([](Real rr, Real) { return rr; });
     const Real axial = truth.integral([](Real rr, Real) { return rr * rr / 2; }) / mass;
     const Real across = truth.integral([&](Real rr, Real y) {
-                          const Real up = y - truth.centre;
-                          return rr * rr / 4 + rr * up * up;
-                        }) /
-                        mass;
+      const Real up = y - truth.centre;
+      return rr * rr / 4 + rr * up * up;
+    }) / mass;
     const Real scale = std::ldexp(Real{1}, scale_exponent(shape));
     const RealVec found = real(normalized_inertia(shape)) * (scale * scale);
     const auto step = static_cast<double>(std::ldexp(scale * scale, -29));
@@ -153,12 +154,13 @@ TEST(TaperedCapsules, OfTwoEqualBallsAreCapsulesAndOfNestedOnesBalls) {
     const Length r = dice.size(0.01, 50), h = dice.size(0.01, 50);
     const Density density = Density::from_integer(1000);
     const Shape even = Shape::tapered_capsule(h + h, r, r), capsule = Shape::capsule(h, r);
-    ASSERT_NEAR(taper_number(mass_of(even, density)) / taper_number(mass_of(capsule, density)), 1, 1e-9);
-    const RealVec apart =
-        real(normalized_inertia(even)) - real(normalized_inertia(capsule));
+    ASSERT_NEAR(taper_number(mass_of(even, density)) / taper_number(mass_of(capsule, density)), 1,
+                1e-9);
+    const RealVec apart = real(normalized_inertia(even)) - real(normalized_inertia(capsule));
     ASSERT_LT(norm(apart), 4e-9L);
     const Shape nested = Shape::tapered_capsule(r / 2, r / 4, r), ball = Shape::sphere(r);
-    ASSERT_NEAR(taper_number(mass_of(nested, density)) / taper_number(mass_of(ball, density)), 1, 1e-9);
+    ASSERT_NEAR(taper_number(mass_of(nested, density)) / taper_number(mass_of(ball, density)), 1,
+                1e-9);
     ASSERT_EQ(bounding_radius(nested), r);
   }
 }
@@ -212,7 +214,8 @@ TEST(TaperedCapsules, AreMetByRaysWhereTheirSurfaceIs) {
     const Real at = truth.outside(start + step * last);
     ASSERT_LE(std::fabs(at), slack + norm(step) * 2e-9L) << describe(shape);
     const RealVec normal = in_taper_frame(rotation, real(hit.normal));
-    ASSERT_LE(truth.reach(normal) - dot(normal, start + step * last), slack * 20) << describe(shape);
+    ASSERT_LE(truth.reach(normal) - dot(normal, start + step * last), slack * 20)
+        << describe(shape);
   }
   EXPECT_GT(hits, 1500);
 }
@@ -283,7 +286,8 @@ TEST(TaperedCapsules, AreApartByTheDistanceAlongItsNormal) {
     // Points on both surfaces are no nearer than the distance, planes separate by no more.
     ASSERT_NEAR(static_cast<double>(along), static_cast<double>(apart), 2e-6) << pair.text();
     const RealVec between = real(found.point_b) + real(pair.offset) - real(found.point_a);
-    ASSERT_NEAR(static_cast<double>(norm(between)), static_cast<double>(apart), 4e-6) << pair.text();
+    ASSERT_NEAR(static_cast<double>(norm(between)), static_cast<double>(apart), 4e-6)
+        << pair.text();
   }
 }
 
@@ -392,8 +396,8 @@ TEST(TaperedCapsules, ReachTheirTimeOfImpactApart) {
       s.start.orientation = turned;
       s.translation = rounded<Position>(metres(way));
       for (int k = 0; k < 3; ++k)
-        s.rotation[k] = decltype(s.rotation.x)::from_raw(
-            static_cast<decltype(s.rotation.x)::Representation>(
+        s.rotation[k] =
+            decltype(s.rotation.x)::from_raw(static_cast<decltype(s.rotation.x)::Representation>(
                 std::ldexp(dice.uniform(-2, 2), decltype(s.rotation.x)::frac_bits)));
       return s;
     };
@@ -406,11 +410,11 @@ TEST(TaperedCapsules, ReachTheirTimeOfImpactApart) {
     if (found.state != TimeOfImpactState::hit) continue;
     ++hits;
     for (int k = 0; k <= 8; ++k) {
-      const Unit at = Unit::from_raw(static_cast<std::int32_t>(std::int64_t{found.fraction.raw} * k / 8));
+      const Unit at =
+          Unit::from_raw(static_cast<std::int32_t>(std::int64_t{found.fraction.raw} * k / 8));
       const Transform pose_a = pose_at(a.sweep, at), pose_b = pose_at(b.sweep, at);
       const Mat3 turned_a = to_matrix(pose_a.orientation), turned_b = to_matrix(pose_b.orientation);
-      const Vec3<Length> between =
-          metres(real(pose_b.position) - real(pose_a.position));
+      const Vec3<Length> between = metres(real(pose_b.position) - real(pose_a.position));
       const ClosestPoints gap = distance({pair.a, turned_a}, {pair.b, turned_b}, between);
       ASSERT_GT(taper_number(gap.distance), 0.001 - 1e-5) << pair.text();
     }

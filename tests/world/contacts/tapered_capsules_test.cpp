@@ -102,7 +102,8 @@ AssetPtr flat_mesh() {
   constexpr int k_cells = 12;
   for (int x = 0; x <= k_cells; ++x)
     for (int z = 0; z <= k_cells; ++z)
-      vertices.push_back({Length::from_ratio(x * 5 - 30, 10), {}, Length::from_ratio(z * 5 - 30, 10)});
+      vertices.push_back(
+          {Length::from_ratio(x * 5 - 30, 10), {}, Length::from_ratio(z * 5 - 30, 10)});
   const auto at = [](int x, int z) { return static_cast<std::uint32_t>(x * (k_cells + 1) + z); };
   for (int x = 0; x < k_cells; ++x) {
     for (int z = 0; z < k_cells; ++z) {
@@ -195,8 +196,8 @@ TEST(TaperedCapsuleBodies, NonePassesAWallOfOneCentimetre) {
     };
     const Length height = size(), bottom = size();
     BodyDef def = test::dynamic_body(Shape::tapered_capsule(height, bottom, size()), {}, {}, {});
-    def.position.x.raw = -random.between(std::int64_t{1} << 30, std::int64_t{20} << 32) -
-                         (std::int64_t{1} << 31);
+    def.position.x.raw =
+        -random.between(std::int64_t{1} << 30, std::int64_t{20} << 32) - (std::int64_t{1} << 31);
     def.velocity.x.raw = random.between(std::int64_t{20} << 32, std::int64_t{400} << 32);
     def.velocity.y.raw = random.between(-(std::int64_t{100} << 32), std::int64_t{100} << 32);
     for (int axis = 0; axis < 3; ++axis)
@@ -217,8 +218,8 @@ TEST(TaperedCapsuleBodies, ArePartsOfCompounds) {
   std::array<CompoundChild, 3> children;
   for (std::size_t i = 0; i < children.size(); ++i) {
     children[i].shape = Shape::tapered_capsule(0.6_m, 0.2_m, 0.1_m);
-    children[i].position = {Length::from_ratio(static_cast<int>(i) - 1, 2), {},
-                            i == 1 ? 0.5_m : Length{}};
+    children[i].position = {
+        Length::from_ratio(static_cast<int>(i) - 1, 2), {}, i == 1 ? 0.5_m : Length{}};
   }
   const AssetPtr stool = Compound::build(children).compound;
   ASSERT_NE(stool, nullptr);
@@ -244,8 +245,7 @@ TEST(TaperedCapsuleBodies, AreFoundByQueries) {
   EXPECT_NEAR(std::ldexp(static_cast<double>(hit.fraction.raw), -Unit::frac_bits),
               (5 + low - 0.4) / 10, 1e-6);
   BodyHandle found[2];
-  const Position height =
-      Position::from_raw(std::llround(std::ldexp(low, Position::frac_bits)));
+  const Position height = Position::from_raw(std::llround(std::ldexp(low, Position::frac_bits)));
   EXPECT_EQ(world.overlap_sphere({0.45_m, height, {}}, 0.06_m, found), 1U);
   EXPECT_EQ(world.overlap_sphere({0.47_m, height, {}}, 0.06_m, found), 0U);
 }

@@ -35,9 +35,8 @@ class Taper {
     const Fine along_axis = foot_of(point - low_);
     const RawVec centre = low_ + part_of(axis_, along_axis, length_);
     const RawVec v = point - centre;
-    const Fine swell = length_ == 0
-                           ? swell_
-                           : swell_ - round_divide(multiply_wide(fall_, along_axis), length_);
+    const Fine swell =
+        length_ == 0 ? swell_ : swell_ - round_divide(multiply_wide(fall_, along_axis), length_);
     if (is_negligible(v)) return {{side_normal(), -swell, {}}, 0};
     const Direction d = direction(v.x, v.y, v.z);
     const auto from_axis = static_cast<Fine>(d.length);
@@ -74,7 +73,7 @@ class Taper {
   RawVec axis_;
   Fine length_;
   Fine swell_;
-  Fine fall_;     ///< by which the upper ball is smaller
+  Fine fall_;      ///< by which the upper ball is smaller
   Fine rise_ = 0;  ///< the length of the side
 };
 

@@ -10,9 +10,9 @@ namespace lockstone::geometry {
 /// either a ball's own, whose way out leaves a face of the other core or its side where it is
 /// nearest to the ball's centre; or both balls reach equally far, along the ring of the side's
 /// normals, which `least_on_ring` searches. All of these are tried, as exact depths of the whole
-/// taper; proven beside polytopes and boxes, to half a micrometre. Then B is put just outside along the
-/// best, and the normal of the closest points there taken if it is better: faces of hulls that were
-/// merged are not quite those of their vertices.
+/// taper; proven beside polytopes and boxes, to half a micrometre. Then B is put just outside along
+/// the best, and the normal of the closest points there taken if it is better: faces of hulls that
+/// were merged are not quite those of their vertices.
 [[nodiscard]] CoreOverlap taper_overlap(GapQuery& query);
 
 }  // namespace lockstone::geometry

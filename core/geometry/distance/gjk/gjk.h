@@ -76,11 +76,12 @@ class GapQuery {
   GapQuery(const GapQuery&) = delete;  // the lattice refers to the cores
   GapQuery& operator=(const GapQuery&) = delete;
 
-  /// GJK, or `taper_gap`, with the centre of B at `offset`, fine, from that of A, begun where the last query ended.
-  /// False when the cores overlap.
+  /// GJK, or `taper_gap`, with the centre of B at `offset`, fine, from that of A, begun where the
+  /// last query ended. False when the cores overlap.
   [[nodiscard]] bool find(const RawVec& offset);
 
-  /// Unless the cores overlap. Of a tapered core it may be a depth, negative: its centres are apart.
+  /// Unless the cores overlap. Of a tapered core it may be a depth, negative: its centres are
+  /// apart.
   [[nodiscard]] const CoreGap& gap() const { return gap_; }
   /// On the lattice; of cores that overlap, it holds the origin.
   [[nodiscard]] const Simplex& simplex() const { return simplex_; }

@@ -78,8 +78,8 @@ class TaperSearch {
   Nearest least_between(Bracket low, Bracket high) {
     constexpr Place k_narrow = Place{1} << 12;
     constexpr int k_most_steps = 80;
-    const Fine rounding = (magnitude_of(axis_.x) + magnitude_of(axis_.y) + magnitude_of(axis_.z)) >>
-                          Unit::frac_bits;
+    const Fine rounding =
+        (magnitude_of(axis_.x) + magnitude_of(axis_.y) + magnitude_of(axis_.z)) >> Unit::frac_bits;
     int side = 0;  // of the last step
     Nearest middle;
     for (int step = 0; step < k_most_steps; ++step) {
@@ -105,7 +105,8 @@ class TaperSearch {
     constexpr std::int64_t k_alike = std::int64_t{1} << (Unit::frac_bits - 13);
     Nearest result = low;
     const RawVec a = raws_of(low.gap.normal), b = raws_of(high.gap.normal), leap = b - a;
-    result.apart = std::max({magnitude_of(leap.x), magnitude_of(leap.y), magnitude_of(leap.z)}) < k_alike;
+    result.apart =
+        std::max({magnitude_of(leap.x), magnitude_of(leap.y), magnitude_of(leap.z)}) < k_alike;
     const auto lane = [&](std::int64_t from, std::int64_t by) {
       return from + round_divide(multiply_wide(by, low.rise), raw::add(low.rise, -high.rise));
     };
@@ -141,8 +142,9 @@ class TaperSearch {
       return true;
     }
     const bool round = is_taper(other_);
-    const TaperPointGap of_taper = round ? taper_point_gap(other_, centre - offset_)
-                                         : TaperPointGap{rim_point_gap(other_.rims, centre - offset_)};
+    const TaperPointGap of_taper =
+        round ? taper_point_gap(other_, centre - offset_)
+              : TaperPointGap{rim_point_gap(other_.rims, centre - offset_)};
     const RimPointGap& found = of_taper.gap;
     gap.normal = -found.normal;
     gap.distance = found.distance;
