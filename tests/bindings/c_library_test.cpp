@@ -60,6 +60,7 @@ TEST(CLibrary, ShapesHaveTheNumbersOfTheCore) {
   expect_same(LKS_COMPOUND, ShapeKind::compound);
   expect_same(LKS_CYLINDER, ShapeKind::cylinder);
   expect_same(LKS_CONE, ShapeKind::cone);
+  expect_same(LKS_TAPERED_CAPSULE, ShapeKind::tapered_capsule);
 }
 
 TEST(CLibrary, SettingsOfBodiesHaveTheNumbersOfTheCore) {

@@ -12,6 +12,8 @@
 #include <lockstone/literals.h>
 
 #include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/numeric/q50.h"
+#include "core/geometry/shapes/tapered_ends.h"
 #include "core/math/roots.h"
 #include "tests/support/random.h"
 
@@ -198,6 +200,22 @@ TEST(PartBelow, OfRoundSolidsIsThatOfTheirSlices) {
               },
               normal, d),
           "capsule");
+    const Shape taper = Shape::tapered_capsule(height, radius, random_size(random));
+    const TaperedEnds ends = tapered_ends(taper.size);
+    const auto height_of = [](Fine y) {
+      return std::ldexp(static_cast<long double>(y), -k_fine_bits);
+    };
+    const long double low = height_of(ends.low), high = height_of(ends.high),
+                      a = value(ends.low_radius), b = value(ends.high_radius);
+    const auto outline = [&](long double y) {
+      const long double s = high > low ? (a - b) / (high - low) : 0, c = std::sqrt(1 - s * s);
+      const auto ball = [&](long double centre, long double size) {
+        return std::sqrt(std::max(size * size - (y - centre) * (y - centre), 1e-30L));
+      };
+      if (y < low + a * s || high == low) return ball(low, a);
+      return y > high + b * s ? ball(high, b) : (a - (y - low) * s) / c;
+    };
+    check(taper, slices_below(low - a, high + b, outline, normal, d), "tapered capsule");
   }
 }
 
@@ -292,6 +310,11 @@ TEST(Shadow, OfRoundSolidsIsTheAreaThatTheirReachEncloses) {
             return std::max(rim(x, y) - h * s * y / 4, 3 * h * s * y / 4);
           }),
           "cone");
+    const Length top = random_size(random);
+    const Shape taper = Shape::tapered_capsule(height, radius, top);
+    check(taper,
+          enclosed([&](long double, long double y) { return std::max(r, value(top) + h * s * y); }),
+          "tapered capsule");
   }
 }
 

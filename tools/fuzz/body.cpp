@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include "core/geometry/numeric/q50.h"
+#include "core/geometry/shapes/tapered_ends.h"
 #include "tools/fuzz/pair_source.h"
 
 namespace lockstone::fuzz {
 namespace {
 
-constexpr std::array<std::string_view, k_kinds> k_names{
-    "sphere", "capsule", "box", "hull", "triangle", "half-space", "cylinder", "cone"};
+constexpr std::array<std::string_view, k_kinds> k_names{"sphere",   "capsule",  "box",
+                                                        "hull",     "triangle", "half-space",
+                                                        "cylinder", "cone",     "tapered-capsule"};
 
 std::vector<Real3> own_core(const Body& body) {
   if (body.polytope != nullptr) {
@@ -21,6 +23,13 @@ std::vector<Real3> own_core(const Body& body) {
   const Real3 size = real(body.shape.size);
   if (body.kind == Kind::cylinder) return {};
   if (body.kind == Kind::cone) return {{0, size.y * 3 / 4, 0}};
+  if (body.is_tapered()) {
+    const geometry::TaperedEnds ends = geometry::tapered_ends(body.shape.size);
+    const auto at = [](geometry::Fine y) {
+      return Real3{0, std::ldexp(static_cast<double>(y), -geometry::k_fine_bits), 0};
+    };
+    return {at(ends.low), at(ends.high)};
+  }
   if (body.kind == Kind::capsule) return {{0, -size.y, 0}, {0, size.y, 0}};
   if (body.kind != Kind::box) return {{}};
   std::vector<Real3> core;
@@ -94,8 +103,8 @@ void Body::turn_to(const Mat3& to) {
 
 double Body::reach(const Real3& direction) const {
   double most = -1e30;
-  for (const Real3& p : core)
-    most = std::max(most, dot(p, direction));
+  for (std::size_t i = 0; i < core.size(); ++i)
+    most = std::max(most, dot(core[i], direction) + (is_tapered() ? swell[i] : 0));
   for (const Circle& rim : rims)
     most = std::max(most, reach_of(rim, direction));
   return most + radius;
@@ -103,8 +112,8 @@ double Body::reach(const Real3& direction) const {
 
 double Body::size() const {
   double most = 0;
-  for (const Real3& p : core)
-    most = std::max(most, norm(p));
+  for (std::size_t i = 0; i < core.size(); ++i)
+    most = std::max(most, norm(core[i]) + (is_tapered() ? swell[i] : 0));
   for (const Circle& rim : rims)
     most = std::max(most, std::hypot(norm(rim.centre), rim.radius));
   return most + radius;

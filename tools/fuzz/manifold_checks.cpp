@@ -61,7 +61,8 @@ void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
 
 // The deepest point of a capsule's core inside something with faces is not on the surfaces.
 bool has_core_inside(const Pair& pair, double separation) {
-  if (!pair.has(Kind::capsule) || pair.half_space() != nullptr) return false;
+  const bool cored = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule);
+  if (!cored || pair.half_space() != nullptr) return false;
   const bool faces =
       pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle) || pair.has_rims();
   return faces && separation < 2 * tolerance(pair) - pair.radii();
@@ -91,7 +92,11 @@ double aside_slack(const Pair& pair, const Manifold& m, double separation) {
 // A vertex may be moved onto a side by 31 µm, and at a corner onto two.
 double surface_slack(const Pair& pair, const Manifold& m, double separation) {
   const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre * std::numbers::sqrt2;
-  const double share = pair.has(Kind::capsule) ? pair.radii() / 1000 : 0;
+  const auto ball = [](const Body& body) {
+    return body.is_tapered() ? body.radius + std::max(body.swell[0], body.swell[1]) : body.radius;
+  };
+  const bool leans = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule);
+  const double share = leans ? (ball(pair.a) + ball(pair.b)) / 1000 : 0;
   return tolerance(pair) + snap + share + aside_slack(pair, m, separation) + uneven_slack(pair);
 }
 

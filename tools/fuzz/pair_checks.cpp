@@ -52,6 +52,7 @@ Real3 corner(const Body& body, const ClosestFeature& feature, bool of_a, int i) 
 // How far a witness is from the surface that its feature says it is on.
 double off_feature(const Body& body, const ClosestFeature& f, bool of_a, const Real3& on_core) {
   if (body.has_rims()) return outside(body, on_core);
+  if (body.is_tapered()) return outside(body, on_core) + body.radius;
   return point_to_triangle(on_core, corner(body, f, of_a, 0), corner(body, f, of_a, 1),
                            corner(body, f, of_a, 2));
 }

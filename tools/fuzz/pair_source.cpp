@@ -4,6 +4,7 @@
 
 #include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/numeric/normals.h"
+#include "core/geometry/shapes/tapered_ends.h"
 #include "tools/fuzz/special_places.h"
 
 namespace lockstone::fuzz {
@@ -57,6 +58,8 @@ Body random_body(HullPool& pool, Dice& dice, Kind kind, const Sizes& sizes, std:
   if (kind == Kind::box) body.shape = Shape::box(x, dice.chance(4) ? x : y, dice.chance(4) ? y : z);
   if (kind == Kind::cylinder) body.shape = Shape::cylinder(y, x);
   if (kind == Kind::cone) body.shape = Shape::cone(y, x);
+  if (kind == Kind::tapered_capsule)
+    body.shape = Shape::tapered_capsule(y, x, dice.chance(8) ? x : z);
   if (kind == Kind::half_space) body.shape = Shape::half_space();
   if (kind == Kind::hull) {
     const std::uint64_t built = std::min(k_hull_pool, 64 + index / 64);
@@ -72,6 +75,11 @@ Body random_body(HullPool& pool, Dice& dice, Kind kind, const Sizes& sizes, std:
   if (body.polytope != nullptr) body.unevenness = unevenness_of(*body.polytope);
   const bool round = kind == Kind::sphere || kind == Kind::capsule;
   if (round) body.radius = real(body.shape.size.x);
+  if (kind == Kind::tapered_capsule) {
+    const geometry::TaperedEnds ends = geometry::tapered_ends(body.shape.size);
+    body.radius = std::min(real(ends.low_radius), real(ends.high_radius));
+    body.swell = {real(ends.low_radius) - body.radius, real(ends.high_radius) - body.radius};
+  }
   body.turn_to(to_matrix(dice.orientation()));
   return body;
 }

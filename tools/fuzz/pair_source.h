@@ -1,6 +1,7 @@
 // Random pairs of convex shapes, many of them at the limits: each depends on seed and index alone.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,8 +16,18 @@
 
 namespace lockstone::fuzz {
 
-enum class Kind : std::uint8_t { sphere, capsule, box, hull, triangle, half_space, cylinder, cone };
-inline constexpr int k_kinds = 8;
+enum class Kind : std::uint8_t {
+  sphere,
+  capsule,
+  box,
+  hull,
+  triangle,
+  half_space,
+  cylinder,
+  cone,
+  tapered_capsule
+};
+inline constexpr int k_kinds = 9;
 
 [[nodiscard]] std::string_view name_of(Kind kind);
 [[nodiscard]] std::optional<Kind> kind_named(std::string_view name);
@@ -42,11 +53,13 @@ struct Body {
   std::vector<Real3> core;  ///< vertices in world axes, ordered as those of `ConvexCore`; of a cone
                             ///< its apex, of a cylinder none
   std::vector<Circle> rims;
-  double radius = 0;      ///< around the core
-  double unevenness = 0;  ///< how far vertices lie below the faces they are of, at most
+  std::array<double, 2> swell{};  ///< of a tapered capsule's two vertices, beyond the radius
+  double radius = 0;              ///< around the core
+  double unevenness = 0;          ///< how far vertices lie below the faces they are of, at most
 
   [[nodiscard]] PosedShape posed() const { return {shape, rotation, polytope}; }
   [[nodiscard]] bool is_one_sided() const { return kind == Kind::triangle; }
+  [[nodiscard]] bool is_tapered() const { return kind == Kind::tapered_capsule; }
   [[nodiscard]] bool has_rims() const { return !rims.empty(); }
   /// Of the rims, 0 without.
   [[nodiscard]] double rim_radius() const { return rims.empty() ? 0 : rims.front().radius; }

@@ -16,7 +16,7 @@ namespace lockstone::fuzz {
 /// alone, so that every machine makes the same.
 class RandomScene {
  public:
-  /// `with_rims`: cylinders and cones too.
+  /// `with_rims`: cylinders, cones and tapered capsules too.
   RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims = true);
 
   /// A world as it begins, on the broad phase given.

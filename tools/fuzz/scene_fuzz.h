@@ -13,7 +13,7 @@ struct SceneFuzzOptions {
   std::uint64_t count = 100;
   std::uint32_t ticks = 60;  ///< of each scene
   int threads = 1;
-  bool with_rims = true;  ///< cylinders and cones too
+  bool with_rims = true;  ///< cylinders, cones and tapered capsules too
 };
 
 struct SceneFailure {

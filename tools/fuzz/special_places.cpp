@@ -37,8 +37,8 @@ Real3 outermost(const Body& body, const Real3& n) {
     most = dot(point, n);
     best = point;
   };
-  for (const Real3& p : body.core)
-    take(p);
+  for (std::size_t i = 0; i < body.core.size(); ++i)
+    take(body.core[i] + n * (body.is_tapered() ? body.swell[i] : 0));
   for (const Circle& rim : body.rims)
     take(rim.centre + direction_of(n - rim.axis * dot(n, rim.axis)) * rim.radius);
   return best + n * body.radius;

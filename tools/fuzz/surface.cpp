@@ -102,16 +102,27 @@ double outside_rims(const Body& body, const Real3& point) {
   return x < base.radius && std::abs(y) < high.y ? -least : least;
 }
 
+// Of the ball whose centre a line square to the side meets, or of an end's.
+double outside_taper(const Body& body, const Real3& point) {
+  const Real3 &low = body.core.front(), axis = body.core.back() - low;
+  const double length = norm(axis), fall = body.swell[0] - body.swell[1];
+  if (length == 0) return norm(point - low) - body.swell[0] - body.radius;
+  const double up = dot(point - low, axis) / length;
+  const double out = norm(point - low - axis * (up / length));
+  const double rise = std::sqrt((length - fall) * (length + fall));
+  const double foot = std::clamp(up - out * fall / rise, 0.0, length);
+  return std::hypot(out, up - foot) - body.swell[0] + fall * foot / length - body.radius;
+}
+
 // The distance from a convex body is convex along a segment.
-bool are_rims_entered(const Body& body, const Real3& from, const Real3& way, double depth) {
+bool is_form_entered(const Body& body, const Real3& from, const Real3& way, double depth) {
   double low = 0, high = 1;
   for (int i = 0; i < 100; ++i) {
     const double first = low + (high - low) / 3, second = high - (high - low) / 3;
-    const bool falls =
-        outside_rims(body, from + way * first) > outside_rims(body, from + way * second);
+    const bool falls = outside(body, from + way * first) > outside(body, from + way * second);
     (falls ? low : high) = falls ? first : second;
   }
-  return outside_rims(body, from + way * ((low + high) / 2)) < -depth;
+  return outside(body, from + way * ((low + high) / 2)) < -depth;
 }
 
 double segment_to_segment(const Real3& a, const Real3& u, const Real3& b, const Real3& v) {
@@ -160,6 +171,7 @@ double outside(const Body& body, const Real3& point) {
   if (body.kind == Kind::half_space) return dot(direction_of(real(body.rotation.y)), point);
   if (body.kind == Kind::box) return outside_box(body, point);
   if (body.has_rims()) return outside_rims(body, point);
+  if (body.is_tapered()) return outside_taper(body, point);
   if (body.polytope != nullptr) return outside_polytope(body, point);
   return point_to_segment(point, body.core.front(), body.core.back()) - body.radius;
 }
@@ -170,11 +182,11 @@ double above_planes(const Body& body, const Real3& point) {
 }
 
 bool is_entered(const Body& body, const Real3& from, const Real3& way, double depth) {
+  if (body.has_rims() || body.is_tapered()) return is_form_entered(body, from, way, depth);
   if (body.radius > 0) {
     const Real3 &end = body.core.front(), &axis = body.core.back() - end;
     return segment_to_segment(from, way, end, axis) < body.radius - depth;
   }
-  if (body.has_rims()) return are_rims_entered(body, from, way, depth);
   if (body.kind == Kind::triangle) return is_flat_entered(body, from, way, depth);
   Part part;
   for (const Plane& plane : planes_of(body))

@@ -1,4 +1,4 @@
-// Scenes of cylinders and cones.
+// Scenes of cylinders, cones and tapered capsules.
 #include "tools/scenes/build.h"
 
 namespace lockstone::scenes {
@@ -73,6 +73,44 @@ void build_cones(World& world, std::uint64_t seed) {
   }
 }
 
+// Clubs: one rolls in a circle about its apex, one is thrown at a wall of bricks, one spins
+// upright, and a pile falls on a slope.
+void build_clubs(World& world, std::uint64_t seed) {
+  add_ground(world, 20_m);
+  const Shape club = Shape::tapered_capsule(1_m, 0.35_m, 0.15_m);
+  // On its side, which leans from the axis by asin 0.2.
+  BodyDef roller = loose(club, {-3_m, 0.28_m, -2_m});
+  roller.orientation = from_axis_angle(k_z_axis, -1.369438406_rad);
+  roller.angular_velocity = {3_rps, {}, {}};
+  add(world, roller);
+  for (int row = 0; row < 3; ++row) {
+    for (int i = 0; i < 3; ++i)
+      add(world, loose(Shape::box(0.2_m, 0.2_m, 0.2_m),
+                       {3_m, millimetres(200 + 400 * row), millimetres(-2400 + 400 * i)}));
+  }
+  BodyDef thrown = loose(club, {-0.5_m, 1_m, -2_m});
+  thrown.velocity = {7_mps, 2_mps, {}};
+  thrown.angular_velocity = {{}, {}, -6_rps};
+  add(world, thrown);
+  BodyDef top = loose(Shape::tapered_capsule(0.5_m, 0.1_m, 0.4_m), {-3_m, 0.5_m, 2_m});
+  top.orientation = from_axis_angle(k_x_axis, 0.05_rad);
+  top.angular_velocity = {{}, 30_rps, {}};
+  add(world, top);
+  BodyDef slope = fixed_box({1_m, 0.5_m, 3_m}, {2_m, 0.2_m, 2_m});
+  slope.orientation = from_axis_angle(k_z_axis, -0.3_rad);
+  add(world, slope);
+  Random random(mix(seed));
+  for (int i = 0; i < 10; ++i) {
+    const auto radius = [&] { return millimetres_long(random.between(80, 250)); };
+    const Length bottom = radius(), height = millimetres_long(random.between(150, 700));
+    BodyDef def = loose(Shape::tapered_capsule(height, bottom, radius()),
+                        {millimetres(1000 + random.between(-300, 300)), millimetres(1400 + 500 * i),
+                         millimetres(3000 + random.between(-300, 300))});
+    def.orientation = random_orientation(random);
+    add(world, def);
+  }
+}
+
 // Coins: one spins on its rim and settles, one rolls, one falls flat, one is tilted.
 void build_coins(World& world, std::uint64_t) {
   add_ground(world, 10_m);
@@ -102,6 +140,8 @@ const Scene k_drums = {"drums", "a stack of drums, a pyramid of pipes, a pile of
                        small_world, build_drums};
 const Scene k_cones = {"cones", "cones on their base, rolling in a circle, on their tip", 240,
                        small_world, build_cones};
+const Scene k_clubs = {"clubs", "tapered capsules roll, are thrown, spin, and fall in a pile", 240,
+                       small_world, build_clubs};
 const Scene k_coins = {"coins", "a coin that spins and settles, one that rolls, two that fall", 300,
                        small_world, build_coins};
 

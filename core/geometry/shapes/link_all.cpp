@@ -6,7 +6,8 @@ namespace lockstone {
 
 bool link_all_shapes() {
   bool all = true;
-#define LKS_LINKED(kind) all = all && geometry::find_traits(ShapeKind::kind) == &geometry::k_##kind;
+#define LKS_LINKED(kind, name) \
+  all = all && geometry::find_traits(ShapeKind::kind) == &geometry::k_##kind;
   LKS_LATER_SHAPES(LKS_LINKED)
 #undef LKS_LINKED
   return all;

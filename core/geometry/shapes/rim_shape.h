@@ -1,4 +1,4 @@
-// Functions that the shapes with rims share: cylinders and cones.
+// Functions that the solids of revolution share.
 #pragma once
 
 #include "core/geometry/contact/feature/contact_feature.h"

@@ -4,10 +4,11 @@
 #include "core/geometry/convex/shape_traits.h"
 
 // Kinds after those with a number of their own, in the order of their numbers. Each has a row
-// k_<kind>, which is linked only by programs that name the kind's function in `Shape`.
+// k_<kind>, which is linked only by programs that name the kind's function in `Shape`, and a name.
 #define LKS_LATER_SHAPES(X) \
-  X(cylinder)               \
-  X(cone)
+  X(cylinder, "cylinder")   \
+  X(cone, "cone")           \
+  X(tapered_capsule, "tapered capsule")
 
 // The address of a row that is not linked is null. Where the linker has no such symbols, every row
 // is linked.
@@ -23,7 +24,7 @@ extern const ShapeTraits k_sphere;
 extern const ShapeTraits k_capsule;
 extern const ShapeTraits k_box;
 
-#define LKS_DECLARE_ROW(kind) extern const ShapeTraits k_##kind LKS_LATER_ROW;
+#define LKS_DECLARE_ROW(kind, name) extern const ShapeTraits k_##kind LKS_LATER_ROW;
 LKS_LATER_SHAPES(LKS_DECLARE_ROW)
 #undef LKS_DECLARE_ROW
 

@@ -6,6 +6,7 @@
 #include <lockstone/assert.h>
 
 #include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/shapes/tapered_ends.h"
 #include "core/geometry/submerged/clipped_solid.h"
 #include "core/geometry/submerged/sliced_solid.h"
 #include "core/math/roots.h"
@@ -98,6 +99,29 @@ void for_each_face(const Polytope& polytope, const SubmergedPart& part, F&& f) {
   }
 }
 
+/// The balls of a tapered capsule in units of the scale, 30 fraction bits.
+struct ScaledEnds {
+  std::int64_t low, high;
+  std::int64_t low_radius, high_radius;
+};
+
+ScaledEnds scaled_ends(const TaperedEnds& ends, int scale) {
+  const auto height = [&](Fine y) { return raw::scale_binary(y, 30 - k_fine_bits - scale); };
+  return {height(ends.low), height(ends.high), scaled_length(ends.low_radius, scale, 30),
+          scaled_length(ends.high_radius, scale, 30)};
+}
+
+void add_tapered(const Shape& shape, int scale, SlicedSolid& sliced) {
+  const TaperedEnds ends = tapered_ends(shape.size);
+  const ScaledEnds at = scaled_ends(ends, scale);
+  const std::int64_t up = ends.slope().raw, out = ends.rise().raw;
+  const std::int64_t first = at.low + product_q30(at.low_radius, up);
+  const std::int64_t last = at.high + product_q30(at.high_radius, up);
+  sliced.add({at.low - at.low_radius, first, 0, 0, at.low_radius, at.low});
+  sliced.add({first, last, product_q30(at.low_radius, out), product_q30(at.high_radius, out)});
+  sliced.add({last, at.high + at.high_radius, 0, 0, at.high_radius, at.high});
+}
+
 void add_round(const Shape& shape, const Vec3<Unit>& n, std::int64_t offset, SubmergedPart& part) {
   SlicedSolid sliced(n, offset);
   const auto scaled = [&](Length x) { return scaled_length(x, part.scale, 30); };
@@ -107,6 +131,8 @@ void add_round(const Shape& shape, const Vec3<Unit>& n, std::int64_t offset, Sub
   } else if (shape.kind == ShapeKind::cone) {
     const std::int64_t r = scaled(shape.size.x), h = scaled(shape.size.y), base = h / 4;
     sliced.add({-base, h - base, r, 0});
+  } else if (shape.kind == ShapeKind::tapered_capsule) {
+    add_tapered(shape, part.scale, sliced);
   } else {
     const std::int64_t r = scaled(shape.size.x), h = scaled(shape.size.y);
     sliced.add({-h - r, -h, 0, 0, r, -h});
@@ -167,6 +193,21 @@ std::int64_t cone_shadow(std::int64_t r, std::int64_t h, std::int64_t along, std
   return product_q30(r, raw::round_shift(product_q30(minor, angle), 2) + side);
 }
 
+// Of two discs and the part between the tangents to both, or of the greater disc that holds the other.
+std::int64_t tapered_shadow(const TaperedEnds& ends, int scale, std::int64_t across) {
+  const ScaledEnds at = scaled_ends(ends, scale);
+  const std::int64_t r = at.low_radius, s = at.high_radius, greater = std::max(r, s);
+  const std::int64_t apart = product_q30(at.high - at.low, across), fall = r - s;
+  if (apart <= std::abs(fall)) return times_pi(product_q30(greater, greater));
+  const auto side = static_cast<std::int64_t>(
+      isqrt_rounded(static_cast<std::uint64_t>(apart * apart - fall * fall)));
+  const auto sector = [&](std::int64_t radius, std::int64_t toward) {  // angles have 32 bits
+    const std::int64_t angle = fine_arc(static_cast<std::uint64_t>(side), toward).raw;
+    return raw::round_shift(product_q30(product_q30(radius, radius), angle), 2);
+  };
+  return sector(r, -fall) + sector(s, fall) + product_q30(r + s, side);
+}
+
 std::int64_t round_shadow(const Shape& shape, int scale, const Vec3<Unit>& u) {
   const std::int64_t r = scaled_length(shape.size.x, scale, 30);
   const std::int64_t h = scaled_length(shape.size.y, scale, 30);
@@ -182,6 +223,8 @@ std::int64_t round_shadow(const Shape& shape, int scale, const Vec3<Unit>& u) {
       return disc + side;
     case ShapeKind::cylinder:
       return product_q30(disc, along) + side;
+    case ShapeKind::tapered_capsule:
+      return tapered_shadow(tapered_ends(shape.size), scale, across);
     default:
       return cone_shadow(r, h, along, across);
   }

@@ -1,5 +1,5 @@
-// Shapes: plain values. Sphere, capsule, box, cylinder, cone and half-space are complete in
-// themselves; the others name an asset.
+// Shapes: plain values. Sphere, capsule, box, cylinder, cone, tapered capsule and half-space are
+// complete in themselves; the others name an asset.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,9 @@ enum class ShapeKind : std::uint8_t {
   compound = 7,      ///< several convex shapes (asset)
   cylinder = 8,
   cone = 9,
+  tapered_capsule = 10,
 };
-inline constexpr ShapeKind k_last_shape_kind = ShapeKind::cone;
+inline constexpr ShapeKind k_last_shape_kind = ShapeKind::tapered_capsule;
 [[nodiscard]] std::string_view to_string(ShapeKind kind);
 
 /// Whether shapes of this kind name an asset.
@@ -54,9 +55,13 @@ inline constexpr Length k_max_shape_size = Length::from_integer(512);
 ///   box:     half extents along the body's axes
 ///   cylinder: x = radius, y = half the height, along the body's y axis
 ///   cone:    x = radius of the base, y = height, along the body's y axis: the apex is up
+///   tapered capsule: the hull of two balls on the body's y axis: x = radius of the lower one,
+///            y = distance of their centres, z = radius of the upper one. Where one ball holds
+///            the other, the shape is that ball
 ///   others:  zero; a half-space lies below the plane y = 0 of its body
 /// All but assets have their centre of mass at the body's origin (a cone's base is a quarter of its
-/// height below it); an asset keeps its own frame.
+/// height below it, a tapered capsule's larger ball is the nearer one); an asset keeps its own
+/// frame.
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;  ///< says how to read the others
   Vec3<Length> size{};                 ///< m, within the bounds above
@@ -78,6 +83,9 @@ struct Shape {
   // them, in commands and snapshots too.
   [[nodiscard]] static Shape cylinder(Length half_height, Length radius);
   [[nodiscard]] static Shape cone(Length height, Length radius);
+  /// `height` is the distance of the balls' centres.
+  [[nodiscard]] static Shape tapered_capsule(Length height, Length bottom_radius,
+                                             Length top_radius);
 
   [[nodiscard]] static constexpr Shape half_space() { return {ShapeKind::half_space, {}, {}}; }
 };

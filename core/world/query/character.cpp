@@ -379,10 +379,12 @@ void check(const CharacterDef& character) {
     case ShapeKind::box:
     case ShapeKind::cylinder:
     case ShapeKind::cone:
+    case ShapeKind::tapered_capsule:
       break;
     default:
       misused(
-          "move_character: CharacterDef::shape must be a sphere, capsule, box, cylinder or cone");
+          "move_character: CharacterDef::shape must be a sphere, capsule, box, cylinder, cone or "
+          "tapered capsule");
   }
   if (character.skin <= Length{} || character.skin > inner_radius(character.shape))
     misused("move_character: CharacterDef::skin must be above 0 and at most the inner radius");

@@ -162,7 +162,8 @@ void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   command
       ->add_option("--kinds", options->kinds,
-                   "Sphere, capsule, box, hull, triangle, half-space, cylinder, cone; default: all")
+                   "Sphere, capsule, box, hull, triangle, half-space, cylinder, cone, "
+                   "tapered-capsule; default: all")
       ->delimiter(',')
       ->check(CLI::Validator(check_kind, "KIND"));
   command->add_option("--only", options->only, "Check this index alone and print its pair");

@@ -92,6 +92,8 @@ Shape spawned_shape(std::int64_t kind, Length size) {
       return Shape::cylinder(size, size);
     case LKS_CONE:
       return Shape::cone(size * 2, size);
+    case LKS_TAPERED_CAPSULE:
+      return Shape::tapered_capsule(size * 2, size, size / 2);
     default:
       return Shape::box(size, size, size);
   }

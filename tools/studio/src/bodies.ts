@@ -28,6 +28,25 @@ function unitGeometry(kind: number): three.BufferGeometry {
   }
 }
 
+/** The hull of two balls, its centre of mass at the origin: `tapered_ends.cpp` has the formula. */
+function taperedGeometry(a: number, height: number, b: number): three.BufferGeometry {
+  if (Math.abs(a - b) >= height) return new three.SphereGeometry(Math.max(a, b), 20, 14);
+  const slope = (a - b) / height;
+  const centre = (height * (1 - slope) ** 2 * (height * (a * a + 2 * a * b + 3 * b * b) + (2 + slope) * (a + b) * (a * a + b * b)))
+    / (4 * (height * (a * a + a * b + b * b) * (1 + slope * slope) + 2 * (a ** 3 + b ** 3)));
+  const tangent = Math.asin(slope), arcSteps = 8;
+  const outline: three.Vector2[] = [];
+  const addArc = (radius: number, y: number, from: number, to: number): void => {
+    for (let i = 0; i <= arcSteps; ++i) {
+      const angle = from + (to - from) * i / arcSteps;
+      outline.push(new three.Vector2(Math.max(0, radius * Math.cos(angle)), y + radius * Math.sin(angle)));
+    }
+  };
+  addArc(a, -centre, -Math.PI / 2, tangent);
+  addArc(b, height - centre, tangent, Math.PI / 2);
+  return new three.LatheGeometry(outline, 20);
+}
+
 /** Meshes of one form; solid or transparent. */
 class Batch {
   mesh: three.InstancedMesh;
@@ -145,9 +164,10 @@ export class Bodies {
 
   private partOf({ kind, size, place, axes }: OutlinePart): Part {
     const [x = 1, y = 1, z = 1] = size;
-    const form = kind === c.LKS_CAPSULE ? `capsule ${x} ${y}` : kind === c.LKS_HALF_SPACE ? "floor" : `form ${kind}`;
+    const form = kind === c.LKS_CAPSULE ? `capsule ${x} ${y}` : kind === c.LKS_TAPERED_CAPSULE ? `tapered ${x} ${y} ${z}` : kind === c.LKS_HALF_SPACE ? "floor" : `form ${kind}`;
     if (!this.geometries.has(form)) {
-      this.geometries.set(form, kind === c.LKS_CAPSULE ? new three.CapsuleGeometry(x, 2 * y, 6, 16) : unitGeometry(kind));
+      this.geometries.set(form, kind === c.LKS_CAPSULE ? new three.CapsuleGeometry(x, 2 * y, 6, 16)
+        : kind === c.LKS_TAPERED_CAPSULE ? taperedGeometry(x, y, z) : unitGeometry(kind));
     }
     const scale = kind === c.LKS_SPHERE ? [x, x, x] : kind === c.LKS_BOX ? [x, y, z]
       : kind === c.LKS_CYLINDER || kind === c.LKS_CONE ? [x, y, x] : [1, 1, 1];

@@ -22,7 +22,7 @@ export {
   overlapSphere,
 } from "./queries.js";
 export {
-  Assets, type Shape, assetShape, box, capsule, cone, cylinder, halfSpace, sphere,
+  Assets, type Shape, assetShape, box, capsule, cone, cylinder, halfSpace, sphere, taperedCapsule,
 } from "./shapes.js";
 export {
   type PartHashes, Snapshot, describeDifference, loadState, partHashes, saveState,

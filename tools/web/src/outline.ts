@@ -3,7 +3,8 @@ import { LKS_BUFFER_TOO_SMALL, lks_web_part } from "./declarations.js";
 
 /** A part of a body's shape, in the frame of the shape, in floating point to be drawn. */
 export interface OutlinePart {
-  /** LKS_SPHERE (0), LKS_CAPSULE (1), LKS_BOX (2), LKS_HALF_SPACE (4), LKS_CYLINDER (8), LKS_CONE (9) of the C interface. */
+  /** LKS_SPHERE (0), LKS_CAPSULE (1), LKS_BOX (2), LKS_HALF_SPACE (4), LKS_CYLINDER (8), LKS_CONE (9), LKS_TAPERED_CAPSULE (10) of the C
+   *  interface. */
   kind: number;
   /** As of `Shape`. */
   size: Float32Array;

@@ -38,6 +38,11 @@ export function cone(height: Quantity, radius: Quantity): Shape {
   return shape(c.LKS_CONE, radius, height);
 }
 
+/** The hull of two balls along y, whose centres are the height apart. */
+export function taperedCapsule(height: Quantity, bottomRadius: Quantity, topRadius: Quantity): Shape {
+  return shape(c.LKS_TAPERED_CAPSULE, bottomRadius, height, topRadius);
+}
+
 /** All below the plane y = 0 of its body, which must be static. */
 export function halfSpace(): Shape {
   return shape(c.LKS_HALF_SPACE);

@@ -180,7 +180,7 @@ bool find_face_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
 // Edges and points --------------------------------------------------------------------------------
 
 /// How far two edges may be aside from each other and yet meet along the normal: 1/64 of the least
-/// radius of cylinders, cones and capsules; any distance where there is none.
+/// radius of round shapes; any distance where there is none.
 Fine widest_aside(const ConvexMeeting& pair) {
   Fine least = k_any_separation;
   for (const PosedShape* posed : {&pair.a, &pair.b})

@@ -146,6 +146,7 @@ void make_core(const PosedShape& shape, ConvexCore& core) {
   core.radius = {};
   core.reference = {};
   core.extent = {};
+  core.swell = {};
   core.polytope = shape.polytope;
   core.rotation = shape.rotation;
   if (shape.polytope != nullptr) {
@@ -185,6 +186,13 @@ int farthest_vertex(const ConvexCore& core, const RawVec& direction) {
     best = i;
   }
   return best;
+}
+
+RawVec farthest_point(const ConvexCore& core, const Vec3<Unit>& n) {
+  if (!is_tapered(core)) return vertex_of(core, farthest_vertex(core, raws_of(n)));
+  const RawVec first = vertex_of(core, 0) + along(n, core.swell[0]);
+  const RawVec second = vertex_of(core, 1) + along(n, core.swell[1]);
+  return dot(second - first, n) > 0 ? second : first;
 }
 
 RawVec reference_offset(const ConvexCore& a, const ConvexCore& b, const RawVec& offset) {

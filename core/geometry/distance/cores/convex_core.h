@@ -28,6 +28,9 @@ struct ConvexCore {
   RawVec reference{};  ///< from the shape's centre
   RawVec extent{};     ///< greatest |coordinate| about the reference, by axis
   std::array<RawVec, 3> generators{};
+  /// By how much the balls about the two vertices of a tapered core exceed `radius`, one of them by
+  /// nothing: the core is the hull of a ball and a point. Zero of all others.
+  std::array<Fine, 2> swell{};
   const Polytope* polytope = nullptr;  ///< whose vertices are listed, turned by `rotation`
   Mat3 rotation{};
   // Left unset beyond vertex_count.
@@ -41,6 +44,16 @@ void make_core(const PosedShape& shape, ConvexCore& core);
 
 /// Adds ±generator to every vertex; none are listed.
 void add_generator(ConvexCore& core, const RawVec& generator);
+
+/// Whether the core is that of a tapered capsule: its vertices are balls, which GJK does not know.
+[[nodiscard]] constexpr bool is_tapered(const ConvexCore& core) {
+  return core.swell[0] != core.swell[1];
+}
+
+/// Of a vertex.
+[[nodiscard]] constexpr Fine swell_at(const ConvexCore& core, int vertex) {
+  return is_tapered(core) ? core.swell[static_cast<std::size_t>(vertex)] : 0;
+}
 
 /// How many indices of vertices there are in a core without rims.
 [[nodiscard]] constexpr int vertex_count(const ConvexCore& core) {
@@ -57,6 +70,9 @@ void add_generator(ConvexCore& core, const RawVec& generator);
 
 /// The vertex that reaches farthest along a direction, whose components are below 2^62.
 [[nodiscard]] int farthest_vertex(const ConvexCore& core, const RawVec& direction);
+
+/// The point of the core, swell included, that is farthest along a unit vector.
+[[nodiscard]] RawVec farthest_point(const ConvexCore& core, const Vec3<Unit>& n);
 
 /// A core in lattice steps, about its reference.
 struct LatticeCore {

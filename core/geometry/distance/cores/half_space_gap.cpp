@@ -14,11 +14,11 @@ HalfSpaceGap half_space_gap(const PosedShape& half_space, const PosedShape& shap
   const int count = core.rims.count != 0 ? 0 : vertex_count(core);  // rims: see below
   for (int i = 0; i < count; ++i) {
     const RawVec vertex = vertex_of(core, i);
-    const Fine height = dot(vertex + offset, gap.normal);
+    const Fine height = dot(vertex + offset, gap.normal) - swell_at(core, i);
     if (i != 0 && height >= gap.distance) continue;
     gap.distance = height;
     gap.vertex = static_cast<int>(i);
-    deepest = vertex;
+    deepest = is_tapered(core) ? vertex - along(gap.normal, swell_at(core, i)) : vertex;
   }
   if (core.rims.count != 0) {
     const Vec3<Unit>& n = gap.normal;

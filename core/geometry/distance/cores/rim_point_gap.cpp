@@ -55,6 +55,8 @@ class HalfPlane {
     return along_side < 0 ? from_rim({base_, 0}) : from_rim({top_, height_});
   }
 
+  [[nodiscard]] Vec3<Unit> side_normal() const { return unit(height_, base_ - top_); }
+
  private:
   RimPointGap inside(Fine below, Fine above, Fine beyond_side) const {
     RimPointGap nearest{-up_, below, {}};
@@ -68,8 +70,6 @@ class HalfPlane {
     const Fine distance = length_of(out, up);
     return {distance < k_no_distance ? side_normal() : unit(out, up), distance, {}};
   }
-
-  Vec3<Unit> side_normal() const { return unit(height_, base_ - top_); }
 
   /// The direction out · out_ + up · up_.
   Vec3<Unit> unit(Fine out, Fine up) const {
@@ -95,6 +95,10 @@ RimPointGap rim_point_gap(const Rims& rims, const RawVec& point) {
   RimPointGap gap = HalfPlane(rims, point).gap();
   gap.on_surface = point - along(gap.normal, gap.distance);
   return gap;
+}
+
+Vec3<Unit> rim_side_normal(const Rims& rims, const RawVec& point) {
+  return HalfPlane(rims, point).side_normal();
 }
 
 }  // namespace lockstone::geometry

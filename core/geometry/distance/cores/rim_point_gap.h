@@ -18,4 +18,7 @@ struct RimPointGap {
 /// sizes.
 [[nodiscard]] RimPointGap rim_point_gap(const Rims& rims, const RawVec& point);
 
+/// The outward normal of the side where it passes the point.
+[[nodiscard]] Vec3<Unit> rim_side_normal(const Rims& rims, const RawVec& point);
+
 }  // namespace lockstone::geometry

@@ -5,6 +5,7 @@
 #include "core/geometry/distance/epa/difference_frame.h"
 #include "core/geometry/distance/epa/expanding_polytope.h"
 #include "core/geometry/distance/epa/rim_overlap.h"
+#include "core/geometry/distance/epa/taper_overlap.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -80,6 +81,7 @@ CoreOverlap core_overlap(GapQuery& query) {
     gap.distance = -gap.distance;
     return {gap, true};
   }
+  if (is_tapered(query.a()) || is_tapered(query.b())) return taper_overlap(query);
   const DifferenceFrame frame = frame_of(query);
   if (frame.count < 4) return {flat_overlap(query, frame), true};
   ExpandingPolytope polytope(frame.vertices);

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "core/geometry/distance/epa/face_directions.h"
 #include "core/geometry/distance/epa/ring_search.h"
 #include "core/geometry/distance/gjk/fine_features.h"
 #include "core/geometry/numeric/normals.h"
@@ -190,10 +191,6 @@ bool proves(const ExpandingPolytope& polytope, int shift, Fine depth) {
   return depth <= (steps + 8) << shift;
 }
 
-RawVec axis_of(const Rims& rims) {
-  return rims.centres[1] - rims.centres[0];
-}
-
 // Directions that the shapes single out
 // ------------------------------------------------------------
 
@@ -209,23 +206,13 @@ struct Shortest {
   }
 };
 
-/// The directions that leave the flat faces of a core, and both along the axis of a cone or
-/// a capsule; `sign` turns them from A to B.
+/// The directions of `for_each_face_direction`; `sign` turns them from A to B.
 void take_faces(const ConvexCore& core, int sign, const Descent& descent, Shortest& shortest) {
   const auto take = [&](const Vec3<Unit>& outward) {
     const Vec3<Unit> n = signed_axis(outward, sign);
     shortest.take(n, descent.depth_along(n));
   };
-  const bool round = core.rims.count != 0;
-  for (int i = 0; i < (round ? 1 : core.generator_count); ++i) {
-    const RawVec g = round ? axis_of(core.rims) : core.generators[static_cast<std::size_t>(i)];
-    const Vec3<Unit> side = direction_of(g.x, g.y, g.z);
-    take(side);
-    take(-side);
-  }
-  if (core.polytope == nullptr) return;
-  for (const PolytopeFace& face : core.polytope->faces)
-    take(unit_axis(lockstone::rotate(core.rotation, face.normal)));
+  for_each_face_direction(core, take);
 }
 
 /// The directions that leave a side; `sign` turns them from A to B.

@@ -35,17 +35,26 @@ struct Place {
   }
 };
 
-/// The point of a core that is farthest along a direction, and the radius of the rim it is on.
+/// The point of a core that is farthest along a direction, the radius of the rim it is on, and that
+/// of the ball around it.
 struct Farthest {
   RawVec point{};
   Fine radius = 0;
+  Fine swell = 0;
 };
+
+Farthest farther_ball(const ConvexCore& core, const Vec3<Unit>& n) {
+  const RawVec first = vertex_of(core, 0), second = vertex_of(core, 1);
+  const bool is_second = dot(second - first, n) + core.swell[1] - core.swell[0] > 0;
+  return is_second ? Farthest{second, 0, core.swell[1]} : Farthest{first, 0, core.swell[0]};
+}
 
 /// `vertex` is the farthest. On a rim the circle's point stands in for it, because a step of the
 /// polygon changes slopes by 1e-4 of the radius; and of a cone that is as far along its side, the
 /// rim for the apex: its curvature bounds the depth more closely.
 Farthest farthest_of(const ConvexCore& core, int vertex, const Vec3<Unit>& n) {
   constexpr Fine k_as_far = Fine{1} << (k_fine_bits - 20);
+  if (is_tapered(core)) return farther_ball(core, n);
   if (core.rims.count == 0) return {vertex_of(core, vertex)};
   const auto on_rim = [&](int rim) {
     const Fine radius = fine(core.rims.radii[static_cast<std::size_t>(rim)]);
@@ -161,8 +170,10 @@ class RingSearch {
     const Farthest a = farthest_of(query_.a(), least.a, n);
     const Farthest b = farthest_of(query_.b(), least.b, -n);
     const RawVec w = a.point - b.point - offset_;
-    Place place{angle, dot(w, n), scaled(dot(w, tangent), ring_.flat.raw), 0, unsure_};
-    place.curvature = scaled(dot(w, ring_.axis), ring_.rise.raw) - place.depth +
+    const Fine core_depth = dot(w, n);
+    Place place{angle, core_depth + a.swell + b.swell, scaled(dot(w, tangent), ring_.flat.raw), 0,
+                unsure_};
+    place.curvature = scaled(dot(w, ring_.axis), ring_.rise.raw) - core_depth +
                       of_rim(query_.a(), a.radius, n, tangent) +
                       of_rim(query_.b(), b.radius, n, tangent);
     if (place.depth < best_.depth) best_ = place;

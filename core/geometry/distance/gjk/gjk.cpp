@@ -7,6 +7,7 @@
 #include "core/geometry/distance/cores/half_space_gap.h"
 #include "core/geometry/distance/cores/rim_point_gap.h"
 #include "core/geometry/distance/gjk/fine_closest.h"
+#include "core/geometry/distance/gjk/taper_gap.h"
 
 namespace lockstone {
 namespace geometry {
@@ -85,6 +86,7 @@ bool GapQuery::find(const RawVec& offset) {
   if (shift != shift_) to_lattice(a_, b_, shift, lattice_);
   shift_ = shift;
   set_offset(between, lattice_);
+  if (is_tapered(a_) || is_tapered(b_)) return find_taper_gap();
   if (guess_ == RawVec{}) guess_ = truncated(lattice_.offset, 31);
   if (guess_ == RawVec{}) guess_.y = 1;
   const GjkResult result = gjk(lattice_, guess_);
@@ -107,7 +109,20 @@ bool GapQuery::find_fine() {
   return true;
 }
 
+bool GapQuery::find_taper_gap() {
+  const TaperGap found = taper_gap(a_, b_, offset_);
+  if (!found.apart) return false;
+  gap_ = found.gap;
+  simplex_ = features_ = found.features;
+  return true;
+}
+
 bool GapQuery::find_in_closed_form() {
+  if (is_tapered(a_) || is_tapered(b_)) {
+    gap_ = taper_point_core_gap(a_, b_, offset_);
+    simplex_ = features_ = simplex_of({gap_.on_b - gap_.on_a, 0, 0});
+    return true;
+  }
   const bool first = a_.rims.count != 0;
   const RimPointGap gap = rim_point_gap(first ? a_.rims : b_.rims, first ? offset_ : -offset_);
   gap_.normal = first ? gap.normal : -gap.normal;

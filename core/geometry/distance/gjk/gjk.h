@@ -76,11 +76,13 @@ class GapQuery {
   GapQuery(const GapQuery&) = delete;  // the lattice refers to the cores
   GapQuery& operator=(const GapQuery&) = delete;
 
-  /// GJK with the centre of B at `offset`, fine, from that of A, begun where the last query ended.
-  /// False when the cores overlap.
+  /// GJK, or `taper_gap`, with the centre of B at `offset`, fine, from that of A, begun where the
+  /// last query ended. False when the cores overlap.
   [[nodiscard]] bool find(const RawVec& offset);
 
-  [[nodiscard]] const CoreGap& gap() const { return gap_; }  ///< unless the cores overlap
+  /// Unless the cores overlap. Of a tapered core it may be a depth, negative: its centres are
+  /// apart.
+  [[nodiscard]] const CoreGap& gap() const { return gap_; }
   /// On the lattice; of cores that overlap, it holds the origin.
   [[nodiscard]] const Simplex& simplex() const { return simplex_; }
   /// Whose hulls hold the closest points; unless the cores overlap.
@@ -95,10 +97,10 @@ class GapQuery {
   /// Whether a step of the lattice is so long that the exact vertices have to decide.
   [[nodiscard]] bool is_coarse() const { return shift_ >= k_coarse_shift; }
 
-  /// Whether a point meets rims: then `gap` is in closed form, and where the cores overlap it has
-  /// their depth, negative.
+  /// Whether a point meets rims or a tapered core: then `gap` is in closed form, and where the
+  /// cores overlap it has their depth, negative.
   [[nodiscard]] bool is_closed_form() const {
-    return (a_.rims.count != 0 && is_point(b_)) || (b_.rims.count != 0 && is_point(a_));
+    return (has_form(a_) && is_point(b_)) || (has_form(b_) && is_point(a_));
   }
 
   /// Puts the offset back to that of an earlier query, without its results.
@@ -108,7 +110,11 @@ class GapQuery {
   /// 2^-23 m: of sizes from 64 m on.
   static constexpr int k_coarse_shift = k_fine_bits - 23;
 
+  [[nodiscard]] static bool has_form(const ConvexCore& core) {
+    return core.rims.count != 0 || is_tapered(core);
+  }
   [[nodiscard]] bool find_fine();
+  [[nodiscard]] bool find_taper_gap();
   [[nodiscard]] bool find_in_closed_form();
 
   ConvexCore a_;

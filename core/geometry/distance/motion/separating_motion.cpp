@@ -92,20 +92,20 @@ Metres acceleration_in(const MovingCore& body, const PlaneFrame& frame, const Ve
                    sum_above(product_above(2 * frame_spin, speed), product_above(spin, surface)));
 }
 
-/// Calls `f` with the vertices of the core, or of a polytope around it that reaches as far along
-/// the normal.
+/// Calls `f` with the vertices of the core and their swell, or of a polytope around it that reaches
+/// as far along the normal.
 template <class F>
 void for_each_bound(const ConvexCore& core, const Vec3<Unit>& normal, F&& f) {
   const int count = core.rims.count != 0 ? 0 : vertex_count(core);
   for (int i = 0; i < count; ++i)
-    f(vertex_of(core, i));
+    f(vertex_of(core, i), swell_at(core, i));
   if (core.rims.count == 0) return;
   const Angle angle = rim_angle(core.rims, raws_of(normal));
   for (int rim = 0; rim < core.rims.count; ++rim) {
     const bool is_point = core.rims.radii[static_cast<std::size_t>(rim)] == Length{};
     const int sides = is_point ? 1 : k_rim_sides;
     for (int side = 0; side < sides; ++side)
-      f(around_rim(core.rims, rim, angle, side));
+      f(around_rim(core.rims, rim, angle, side), Fine{0});
   }
 }
 
@@ -127,12 +127,12 @@ void project(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& 
   projection.rate = along_normal(normal, translation);
   std::uint64_t from_centre = 0;
   std::uint64_t from_plane = 0;
-  for_each_bound(core, normal, [&](const RawVec& point) {
+  for_each_bound(core, normal, [&](const RawVec& point, Fine swell) {
     const RawVec vertex = point + body.shape;
     const RawVec lever = vertex - body.centre;
     const RawVec from_frame = vertex - frame_centre;
     projection.lines[static_cast<std::size_t>(projection.count++)] = {
-        to_metres(dot(vertex, normal)),
+        to_metres(dot(vertex, normal) + swell),
         projection.rate + turning_speed(axis, lever) - turning_speed(frame_axis, from_frame)};
     from_centre = std::max(from_centre, square_above(lever));
     from_plane = std::max(from_plane, square_above(from_frame));

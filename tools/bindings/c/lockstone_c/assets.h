@@ -18,13 +18,16 @@ enum {
   LKS_HEIGHT_FIELD = 6,
   LKS_COMPOUND = 7,
   LKS_CYLINDER = 8,
-  LKS_CONE = 9
+  LKS_CONE = 9,
+  LKS_TAPERED_CAPSULE = 10
 };
 
 /* The size means, by kind: sphere: x = radius; capsule: x = radius, y = half the length of the core
  * segment, along y; box: half extents; cylinder: x = radius, y = half the height, along y; cone: x
- * = radius of the base, y = height, along y, the origin a quarter of it above the base; others:
- * zero. Sizes are 0.98 mm … 512 m. */
+ * = radius of the base, y = height, along y, the origin a quarter of it above the base; tapered
+ * capsule: the hull of two balls on the y axis, x = radius of the lower one, y = distance of their
+ * centres, z = radius of the upper one, the origin at its centre of mass; others: zero. Sizes are
+ * 0.98 mm … 512 m. */
 typedef struct lks_shape {
   uint32_t kind;
   lks_length3 size;
@@ -55,6 +58,10 @@ static inline lks_shape lks_cylinder(lks_length half_height, lks_length radius) 
 }
 static inline lks_shape lks_cone(lks_length height, lks_length radius) {
   return lks_shape_of(LKS_CONE, radius, height, 0, 0);
+}
+static inline lks_shape lks_tapered_capsule(lks_length height, lks_length bottom_radius,
+                                            lks_length top_radius) {
+  return lks_shape_of(LKS_TAPERED_CAPSULE, bottom_radius, height, top_radius, 0);
 }
 static inline lks_shape lks_half_space(void) {
   return lks_shape_of(LKS_HALF_SPACE, 0, 0, 0, 0);

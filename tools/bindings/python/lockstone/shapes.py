@@ -41,6 +41,11 @@ def cone(height: Quantity, radius: Quantity) -> Shape:
     return Shape(9, I32x3(_length(radius), _length(height), 0), 0)
 
 
+def tapered_capsule(height: Quantity, bottom_radius: Quantity, top_radius: Quantity) -> Shape:
+    """The hull of two balls along y, whose centres are the height apart."""
+    return Shape(10, lengths((bottom_radius, height, top_radius)), 0)
+
+
 def half_space() -> Shape:
     """All below the plane y = 0 of its body, which must be static."""
     return Shape(4, I32x3(0, 0, 0), 0)

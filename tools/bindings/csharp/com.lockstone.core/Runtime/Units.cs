@@ -75,6 +75,9 @@ namespace Lockstone
         public static lks_shape Box(int halfX, int halfY, int halfZ) => Of(Native.LKS_BOX, halfX, halfY, halfZ);
         public static lks_shape Cylinder(int halfHeight, int radius) => Of(Native.LKS_CYLINDER, radius, halfHeight, 0);
         public static lks_shape Cone(int height, int radius) => Of(Native.LKS_CONE, radius, height, 0);
+        /// <summary>The hull of two balls along y, whose centres are the height apart.</summary>
+        public static lks_shape TaperedCapsule(int height, int bottomRadius, int topRadius) =>
+            Of(Native.LKS_TAPERED_CAPSULE, bottomRadius, height, topRadius);
         public static lks_shape HalfSpace() => Of(Native.LKS_HALF_SPACE, 0, 0, 0);
         /// <summary>Of an asset: <c>Native.LKS_HULL</c>, <c>LKS_MESH</c>, <c>LKS_HEIGHT_FIELD</c>, <c>LKS_COMPOUND</c>.</summary>
         public static lks_shape Asset(uint kind, ulong name) => Of(kind, 0, 0, 0, name);

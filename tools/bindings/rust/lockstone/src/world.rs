@@ -71,6 +71,14 @@ impl Shape {
     pub const fn cone(height: lks_length, radius: lks_length) -> lks_shape {
         Self::of(sys::LKS_CONE, radius, height, 0, 0)
     }
+    /// The hull of two balls along y, whose centres are the height apart.
+    pub const fn tapered_capsule(
+        height: lks_length,
+        bottom_radius: lks_length,
+        top_radius: lks_length,
+    ) -> lks_shape {
+        Self::of(sys::LKS_TAPERED_CAPSULE, bottom_radius, height, top_radius, 0)
+    }
     pub const fn half_space() -> lks_shape {
         Self::of(sys::LKS_HALF_SPACE, 0, 0, 0, 0)
     }
