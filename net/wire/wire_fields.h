@@ -197,4 +197,11 @@ void fields(Wire& wire, Message& message, const Parts&) {
   });
 }
 
+template <class Wire, class Message>
+void fields(Wire& wire, Message& message, const Named&) {
+  wire.value(message.slot);
+  wire.require(message.slot < k_max_players);
+  wire.text(message.name);
+}
+
 }  // namespace lockstone::net

@@ -43,6 +43,8 @@ std::string_view to_string(EventKind kind) {
       return "substitution";
     case EventKind::note:
       return "note";
+    case EventKind::name:
+      return "name";
   }
   return "event";
 }

@@ -5,9 +5,9 @@
 #include <lockstone/assert.h>
 #include <lockstone/hash.h>
 #include <lockstone/simulation_fields.h>
+#include <lockstone/utf8.h>
 
 #include "replay/bytes/log_digest.h"
-#include "replay/bytes/utf8.h"
 #include "replay/codec/field_codec.h"
 #include "replay/codec/index_codec.h"
 #include "replay/codec/input_codec.h"

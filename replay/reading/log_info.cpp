@@ -32,6 +32,13 @@ void list_events(const LogReader& reader, LogInfo& info) {
   info.events.insert(info.events.end(), listed.begin(), listed.end());
 }
 
+void note_names(const LogReader& reader, LogInfo& info) {
+  for (const LogEvent& event : reader.events()) {
+    const bool names = event.kind == EventKind::name && event.slot < info.player_names.size();
+    if (names) info.player_names[event.slot] = event.text;
+  }
+}
+
 void take(LogItem item, const LogReader& reader, LogInfo& info) {
   count_chunk(reader.chunk(), info.chunk_types);
   switch (item) {
@@ -48,6 +55,7 @@ void take(LogItem item, const LogReader& reader, LogInfo& info) {
       info.keyframe_ticks.push_back(reader.chunk().first_tick);
       return;
     case LogItem::events:
+      note_names(reader, info);
       return list_events(reader, info);
     case LogItem::end:
       info.end_reason = reader.end().reason;
@@ -66,6 +74,7 @@ Result<LogInfo> read_log_info(Source& source, Damage* damage) {
   if (status != Status::ok) return status;
   LogInfo info;
   info.header = reader.header();
+  info.player_names.resize(info.header.info.player_count);
   info.file_bytes = source.size();
   LogItem item = reader.next();
   for (; !is_last(item); item = reader.next())

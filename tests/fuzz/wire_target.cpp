@@ -102,6 +102,8 @@ bool run(ByteView packet) {
       return run_plain<Paused>(packet);
     case MessageType::parts:
       return run_plain<Parts>(packet);
+    case MessageType::named:
+      return run_plain<Named>(packet);
     default:
       return false;
   }
@@ -135,7 +137,7 @@ Ticks sample_ticks() {
 std::vector<Bytes> seeds() {
   static const std::array chunk{std::byte{1}, std::byte{2}, std::byte{3}};
   Hello hello;
-  hello.name = NameText("A");
+  hello.name = PlayerName("A");
   Welcome welcome;
   welcome.player_count = 3;
   DesyncNotice notice;
@@ -160,7 +162,8 @@ std::vector<Bytes> seeds() {
           bytes_of(Activate{2, 90}),
           bytes_of(Ask{AskKind::vote, 1, 2}),
           bytes_of(Paused{true}),
-          bytes_of(Parts{128, 2, {{{1, 2}, {3, 4}}}})};
+          bytes_of(Parts{128, 2, {{{1, 2}, {3, 4}}}}),
+          bytes_of(Named{2, PlayerName("Zo\u00eb")})};
 }
 
 const Registration k_registration{{.name = "wire", .seeds = seeds, .run = run}};

@@ -98,6 +98,7 @@ Match::Player& Match::add_player(std::uint8_t wanted_slot, std::uint64_t rejoin_
   ClientConfig config = options.client;
   config.insecure = !options.secure;
   config.wanted_slot = wanted_slot;
+  if (!config.name.empty()) config.name += std::to_string(wanted_slot);
   config.rejoin_key = rejoin_key;
   ClientParts client_parts;
   client_parts.transport = player.transport;

@@ -154,7 +154,7 @@ struct ClientLog final : ClientObserver {
 struct MatchOptions {
   ToyConfig toy;
   ServerConfig server;  ///< match_config, info and insecure are filled in
-  ClientConfig client;  ///< insecure and wanted_slot are filled in
+  ClientConfig client;  ///< insecure and wanted_slot are filled in; a name gets the slot behind it
   LinkFaults faults;
   std::uint64_t seed = 1;
   bool authoritative = true;

@@ -95,7 +95,7 @@ std::vector<Sample> samples() {
   const SimulationInfo info{1, 2, 3, 4, 60, 2, 4};
   return {
       sample("hello",
-             Hello{k_protocol_version, true, 3, 77, 1200, 99, NameText("Ann"), BuildText("1.2")}),
+             Hello{k_protocol_version, true, 3, 77, 1200, 99, PlayerName("Ann"), BuildText("1.2")}),
       sample("offer", Offer{true, config}),
       sample("answer", Answer{info}),
       sample("welcome",
@@ -118,6 +118,7 @@ std::vector<Sample> samples() {
       sample("ask", Ask{AskKind::vote, 3, 200}),
       sample("paused", Paused{true}),
       sample("parts", Parts{1920, 2, {{{1, 2}, {3, 4}}}}),
+      sample("named", Named{3, PlayerName("Zo\u00eb")}),
   };
 }
 
@@ -125,7 +126,7 @@ TEST(Wire, SamplesAreOneOfEachTypeInOrder) {
   std::size_t type = 0;
   for (const Sample& message : samples())
     EXPECT_EQ(message.bytes.at(0), static_cast<std::byte>(++type)) << message.name;
-  EXPECT_EQ(type, static_cast<std::size_t>(MessageType::parts));
+  EXPECT_EQ(type, static_cast<std::size_t>(MessageType::named));
 }
 
 TEST(Wire, EveryMessageSurvivesTheRoundTrip) {
@@ -222,14 +223,23 @@ TEST(Wire, HelloOfAnotherVersionTellsItsVersion) {
 
 TEST(Wire, HasTheDocumentedBytes) {
   const std::vector<std::byte> bytes =
-      encoded(Hello{2, true, 255, 3, 4, 5, NameText("A"), BuildText("B")});
-  const std::array<int, 37> expected{1, 'L', 'K', 'S', 'N', 2, 0, 1, 255, 3, 0,  0, 0,
+      encoded(Hello{k_protocol_version, true, 255, 3, 4, 5, PlayerName("A"), BuildText("B")});
+  const std::array<int, 37> expected{1, 'L', 'K', 'S', 'N', 5, 0, 1, 255, 3, 0,  0, 0,
                                      0, 0,   0,   0,   4,   0, 0, 0, 0,   0, 0,  0, 5,
                                      0, 0,   0,   0,   0,   0, 0, 1, 'A', 1, 'B'};
   ASSERT_EQ(bytes.size(), expected.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << i;
   }
+}
+
+TEST(Wire, RefusesANameWithControlCharacters) {
+  std::vector<std::byte> bytes = encoded(Named{3, PlayerName("Ann")});
+  Named named;
+  ASSERT_EQ(decode(bytes, named), Status::ok);
+  EXPECT_EQ(named.name.view(), "Ann");
+  bytes.back() = std::byte{0x1b};
+  EXPECT_EQ(decode(bytes, named), Status::malformed);
 }
 
 TEST(RecordCoder, GivesBackRandomRuns) {

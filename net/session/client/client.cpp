@@ -58,6 +58,9 @@ FinishReason Client::finish_reason() const {
 std::uint8_t Client::slot() const {
   return impl_->data.place.seated ? impl_->data.place.welcome.slot : k_no_slot;
 }
+std::string_view Client::player_name(std::uint8_t slot) const {
+  return slot < k_max_players ? impl_->data.names[slot].view() : std::string_view();
+}
 std::uint64_t Client::ticks_stepped() const {
   return impl_->data.progress.stepped;
 }
@@ -187,6 +190,8 @@ bool Client::Impl::dispatch(ByteView packet) {
       return entry.on_activate(packet);
     case MessageType::paused:
       return on_paused(packet);
+    case MessageType::named:
+      return on_named(packet);
     case MessageType::finish:
       return end.on_finish(packet);
     case MessageType::bye:
@@ -249,6 +254,7 @@ bool Client::Impl::on_desync(ByteView packet) {
   DesyncReport report;
   report.tick = notice.tick;
   report.slot = notice.slot;
+  report.name = data.names[notice.slot].view();
   report.verdict = notice.verdict;
   report.hash_here = notice.hash_here;
   report.hash_there = notice.hash_there;
@@ -271,6 +277,15 @@ bool Client::Impl::on_paused(ByteView packet) {
   return true;
 }
 
+bool Client::Impl::on_named(ByteView packet) {
+  Named message;
+  if (decode(packet, message) != Status::ok || !data.place.seated) return false;
+  if (message.slot >= data.game.info.player_count) return false;
+  data.names[message.slot] = message.name;
+  data.observer->player_named(message.slot, message.name.view());
+  return true;
+}
+
 void ClientObserver::joined(std::uint8_t) {}
 void ClientObserver::match_started() {}
 void ClientObserver::tick_stepped(std::uint64_t, std::span<const PlayerInput>, std::uint64_t) {}
@@ -280,6 +295,7 @@ void ClientObserver::match_finished(FinishReason, std::uint64_t) {}
 void ClientObserver::state_loaded(std::uint64_t) {}
 void ClientObserver::player_active(std::uint8_t, std::uint64_t) {}
 void ClientObserver::pause_changed(bool) {}
+void ClientObserver::player_named(std::uint8_t, std::string_view) {}
 void ClientObserver::input_replaced(std::uint64_t) {}
 void ClientObserver::tick_predicted(std::uint64_t, std::span<const PlayerInput>) {}
 void ClientObserver::rolled_back(std::uint64_t, std::uint64_t) {}

@@ -2,6 +2,7 @@
 // simulation and the ticks of the match. Parts refer to it; it knows none of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -86,7 +87,8 @@ struct ClientData {
   OwnInputs inputs;
   PlayoutClock playout;
   LeadControl lead;
-  ClientStats stats;  ///< without those that current_stats adds
+  std::array<PlayerName, k_max_players> names;  ///< by slot, as far as the server told them
+  ClientStats stats;                            ///< without those that current_stats adds
 };
 
 /// Notes the hashes of parts of the simulation's state, if they are due. Called after every step.

@@ -50,6 +50,7 @@ struct Client::Impl {
   void play();
   [[nodiscard]] bool on_desync(ByteView packet);
   [[nodiscard]] bool on_paused(ByteView packet);
+  [[nodiscard]] bool on_named(ByteView packet);
 };
 
 }  // namespace lockstone::net

@@ -18,7 +18,7 @@ void Handshake::say_hello() {
   Hello hello;
   hello.insecure = data_.config.insecure;
   hello.wanted_slot = seated_before ? place.welcome.slot : data_.config.wanted_slot;
-  hello.name = NameText(data_.config.name);
+  hello.name = PlayerName(data_.config.name);
   hello.build = BuildText(data_.config.build);
   hello.rejoin_key = place.rejoin_key;
   hello.ticks_stepped = data_.progress.stepped;

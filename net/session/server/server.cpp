@@ -74,6 +74,10 @@ std::uint16_t Server::waiting_mask() const {
 PlayerStats Server::stats(std::uint8_t slot) const {
   return player_stats(impl_->data, slot);
 }
+std::string_view Server::player_name(std::uint8_t slot) const {
+  if (!impl_->data.roster.is_slot(slot)) misused("Server: the slot must be below the player count");
+  return impl_->data.roster.seat(slot).name.view();
+}
 bool Server::paused() const {
   return impl_->data.match.paused;
 }

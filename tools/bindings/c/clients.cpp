@@ -133,6 +133,11 @@ struct ClientBox final : net::ClientObserver, net::InputSource, net::InputPredic
     event.tick = tick;
     events.add(event);
   }
+  void player_named(std::uint8_t slot, std::string_view name) override {
+    lks_session_event event = event_of(LKS_SESSION_NAMED);
+    event.slot = slot;
+    events.add(event, std::string(name));
+  }
   void pause_changed(bool paused) override { at_tick(LKS_SESSION_PAUSED, 0, 0, paused ? 1 : 0); }
   void input_replaced(std::uint64_t tick) override { at_tick(LKS_SESSION_INPUT_REPLACED, tick); }
   void tick_predicted(std::uint64_t tick, std::span<const PlayerInput>) override {
@@ -283,6 +288,16 @@ lks_status lks_client_reason(const lks_client* client, char* out, size_t capacit
   return call([&] {
     const net::Client& source = *read(client).client;
     write_text(reason_of(source), array(out, capacity, "out"), capacity);
+  });
+}
+
+lks_status lks_client_player_name(const lks_client* client, uint32_t slot, char* out,
+                                  size_t capacity) {
+  return call([&] {
+    if (slot >= k_max_players) throw invalid("slot", "there is no such slot");
+    const net::Client& source = *read(client).client;
+    write_text(source.player_name(static_cast<std::uint8_t>(slot)), array(out, capacity, "out"),
+               capacity);
   });
 }
 

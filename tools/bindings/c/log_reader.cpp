@@ -199,6 +199,17 @@ lks_status lks_log_get_info(lks_log* log, lks_log_info* info) {
   });
 }
 
+lks_status lks_log_player_name(lks_log* log, uint32_t slot, char* out, size_t capacity) {
+  return call([&] {
+    replay::Damage damage;
+    auto read = replay::read_log_info(*handle(log).source, &damage);
+    if (!read.ok()) fail(read.status(), damage.what);
+    const std::vector<std::string>& names = read.value().player_names;
+    if (slot >= names.size()) throw invalid("slot", "there is no such slot");
+    write_text(names[slot], array(out, capacity, "out"), capacity);
+  });
+}
+
 lks_status lks_log_config(lks_log* log, void* out, size_t capacity, size_t* count) {
   return call([&] {
     give_bytes(handle(log).ticks->config(), out, capacity, required(count, "count"),

@@ -108,7 +108,8 @@ struct lks_server final : net::ServerObserver {
     lks_session_event event = event_of(LKS_SESSION_JOINED);
     event.slot = slot;
     events.add(event, std::string(name));
-    record(replay::EventKind::join, slot, name);
+    record(replay::EventKind::join, slot, {});
+    record(replay::EventKind::name, slot, name);
     say(LKS_LEVEL_INFO, "player " + std::to_string(slot) + " joined: " + std::string(name));
   }
   void player_left(std::uint8_t slot, net::LeaveReason reason) override {
@@ -289,6 +290,17 @@ lks_status lks_server_get(const lks_server* server, lks_server_view* view) {
     raw.spectators = static_cast<std::uint32_t>(source.spectators());
     raw.paused = source.paused() ? 1 : 0;
     give(raw, view, required(view, "view").size, "view");
+  });
+}
+
+lks_status lks_server_player_name(const lks_server* server, uint32_t slot, char* out,
+                                  size_t capacity) {
+  return call([&] {
+    const lks_server& source = handle(server);
+    if (slot >= source.match->simulation->info().player_count)
+      throw invalid("slot", "there is no such slot");
+    write_text(source.server->player_name(static_cast<std::uint8_t>(slot)),
+               array(out, capacity, "out"), capacity);
   });
 }
 

@@ -105,6 +105,10 @@ class JoinObserver final : public net::ClientObserver {
     fmt::print(stderr, "{} {}\n", back ? "back as" : "joined as",
                watches ? "a spectator" : fmt::format("player {}", slot));
   }
+  void player_named(std::uint8_t slot, std::string_view name) override {
+    if (quiet_ || slot == own_slot_ || name.empty()) return;
+    fmt::print(stderr, "player {} is {}\n", slot, name);
+  }
   void tick_stepped(std::uint64_t tick, std::span<const PlayerInput>, std::uint64_t hash) override {
     final_hash = hash;
     stalls.tick(watch.microseconds());

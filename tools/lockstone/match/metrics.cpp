@@ -149,6 +149,7 @@ nlohmann::ordered_json json_of(const MatchMetrics& metrics) {
   for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
     nlohmann::ordered_json player{{"slot", slot},
                                   {"present", ((metrics.present_mask >> slot) & 1) != 0}};
+    if (slot < metrics.names.size()) player["name"] = metrics.names[slot];
     for (const PlayerFigure& figure : k_figures)
       player[figure.name] = figure.value(metrics.players[slot]);
     players.push_back(std::move(player));
@@ -250,7 +251,9 @@ std::string metrics_as_text(const MatchMetrics& metrics) {
   }
   for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
     const bool present = ((metrics.present_mask >> slot) & 1) != 0;
-    text += fmt::format("player {} ({}):", slot, present ? "here" : "away");
+    const std::string name = slot < metrics.names.size() ? metrics.names[slot] : std::string();
+    text += fmt::format("{} ({}):", net::player_text(static_cast<unsigned>(slot), name),
+                        present ? "here" : "away");
     for (const PlayerFigure& figure : k_figures)
       text += fmt::format(" {} {}", figure.name, figure.value(metrics.players[slot]));
     text += '\n';

@@ -27,6 +27,7 @@ struct MatchMetrics {
   std::uint16_t present_mask = 0;
   std::uint64_t desyncs = 0;
   std::vector<net::PlayerStats> players;
+  std::vector<std::string> names = {};  ///< of the players; empty: not told
   net::ServerCounters server;
   net::ConnectionCounts connections;
   net::EnetCounters socket;

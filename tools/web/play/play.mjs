@@ -1,13 +1,15 @@
-// The page: the player of one seat of a match of the arena. ?seat=N; /seat/N says where and with which token.
+// The page: the player of one seat of a match of the arena. ?seat=N&name=NAME; /seat/N says where and with which token.
 import { Client, View, loadSession } from "lockstone/session";
 import { Picture } from "../testbed/picture.mjs";
 
 const KEYS = { KeyW: "up", ArrowUp: "up", KeyS: "down", ArrowDown: "down", KeyA: "left", ArrowLeft: "left", KeyD: "right", ArrowRight: "right" };
+const SEATS = 16;
 const BUTTONS = { Space: 1, KeyE: 2, KeyF: 4, KeyX: 8 };
 const seat = new URLSearchParams(location.search).get("seat") ?? "0";
 const { url, token } = await (await fetch(`/seat/${seat}`)).json();
 const lockstone = await loadSession();
-const client = new Client(lockstone, { url, token, name: `tab ${seat}`, predictionTicks: 8 });
+const name = new URLSearchParams(location.search).get("name") ?? `tab ${seat}`;
+const client = new Client(lockstone, { url, token, name, predictionTicks: 8 });
 const canvas = document.getElementById("picture");
 const picture = new Picture(canvas);
 const held = new Set();
@@ -50,6 +52,8 @@ function update() {
   client.setInput(input());
   for (const event of client.update()) if (event.kind === "desync") desync = event.text;
   const { stats } = client;
+  document.getElementById("players").textContent = Array.from({ length: SEATS }, (_, slot) => slot)
+    .filter((slot) => client.playerName(slot) !== "").map((slot) => `${slot} ${client.playerName(slot)}`).join(" · ");
   document.getElementById("state").textContent = `player ${client.slot}, ${client.state}, tick ${client.ticks}` +
     `, margin ${stats.marginQuarters / 4} ticks, ${stats.rollbacks} rollbacks${desync && `\n${desync}`}${client.reason && `\n${client.reason}`}`;
 }

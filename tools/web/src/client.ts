@@ -17,7 +17,7 @@ export interface ClientOptions {
   slot?: number | "spectator";
   /** Rollback: ticks that are stepped on guesses, 0 … 15. 0: lockstep. */
   predictionTicks?: number;
-  /** Printable ASCII, 32 characters. */
+  /** At most 32 bytes of UTF-8; control characters become "?". */
   name?: string;
   /** `Client.rejoinKey` of a tab that was closed or reloaded: the same seat again. */
   rejoinKey?: bigint;
@@ -39,7 +39,7 @@ const KINDS = {
   [c.LKS_SESSION_DESYNC]: "desync", [c.LKS_SESSION_SILENT]: "silent", [c.LKS_SESSION_JOINED]: "joined",
   [c.LKS_SESSION_PLAYER_ACTIVE]: "player active", [c.LKS_SESSION_STATE_LOADED]: "state loaded",
   [c.LKS_SESSION_PAUSED]: "paused", [c.LKS_SESSION_INPUT_REPLACED]: "input replaced",
-  [c.LKS_SESSION_PREDICTED]: "predicted", [c.LKS_SESSION_ROLLED_BACK]: "rolled back",
+  [c.LKS_SESSION_NAMED]: "named", [c.LKS_SESSION_PREDICTED]: "predicted", [c.LKS_SESSION_ROLLED_BACK]: "rolled back",
 } as const;
 
 /** Fields that the kind does not use are 0 or empty; see `lockstone_c/sessions.h`. */
@@ -52,7 +52,7 @@ export interface SessionEvent {
   otherHash: string;
   value: number;
   reason: number;
-  /** For people: of `desync` the tick, stage, body and field. */
+  /** For people: of `desync` the tick, stage, body and field; of `named` the name. */
   text: string;
 }
 
@@ -72,6 +72,7 @@ export interface ClientStats {
 
 const event = c.lks_session_event;
 const TEXT_BYTES = 512;
+const NAME_BYTES = 32;
 const FIRST_PAUSE_MS = 250;
 const LONGEST_PAUSE_MS = 4000;
 const CALLS_OF_STRANGERS = 3;
@@ -85,8 +86,7 @@ function putDefinition(heap: Heap, options: ClientOptions): number {
   if (slot !== undefined) heap.putWord(at + def.wanted_slot, slot);
   if (options.predictionTicks !== undefined) heap.putWord(at + def.prediction_ticks, options.predictionTicks);
   if (options.rejoinKey !== undefined) heap.u64[(at + def.rejoin_key) >>> 3] = options.rejoinKey;
-  const name = new TextEncoder().encode((options.name ?? "browser").slice(0, 32));
-  heap.u8.set(name, at + def.name);
+  new TextEncoder().encodeInto(options.name ?? "browser", heap.u8.subarray(at + def.name, at + def.name + NAME_BYTES));
   return at;
 }
 
@@ -230,6 +230,13 @@ export class Client {
     return heap.text(heap.output);
   }
 
+  /** The name that a slot's player gave; kept after it left. */
+  playerName(slot: number): string {
+    const { heap } = this;
+    heap.check(heap.f.lks_client_player_name(this.address, slot, heap.output, TEXT_BYTES));
+    return heap.text(heap.output);
+  }
+
   get stats(): ClientStats {
     const { heap } = this;
     const at = heap.output;
@@ -342,7 +349,7 @@ export class Client {
     const number = heap.getWord(at + event.kind);
     const kind = KINDS[number as keyof typeof KINDS] ?? "other";
     let text = "";
-    if (number === c.LKS_SESSION_DESYNC || number === c.LKS_SESSION_FINISHED) {
+    if (number === c.LKS_SESSION_DESYNC || number === c.LKS_SESSION_NAMED || number === c.LKS_SESSION_FINISHED) {
       heap.check(heap.f.lks_client_event_text(this.address, index, heap.output, TEXT_BYTES));
       text = heap.text(heap.output);
     }

@@ -116,6 +116,7 @@ export const LKS_SESSION_DESYNC = 4;
 export const LKS_SESSION_SILENT = 5;
 export const LKS_SESSION_JOINED = 6;
 export const LKS_SESSION_PLAYER_ACTIVE = 7;
+export const LKS_SESSION_NAMED = 8;
 export const LKS_SESSION_LEFT = 16;
 export const LKS_SESSION_REFUSED = 17;
 export const LKS_SESSION_ASKED = 18;
@@ -350,6 +351,7 @@ export interface Functions {
   lks_client_event_text(client: number, index: number, out: number, capacity: number): number;
   lks_client_get(client: number, view: number): number;
   lks_client_reason(client: number, out: number, capacity: number): number;
+  lks_client_player_name(client: number, slot: number, out: number, capacity: number): number;
   lks_client_simulation(client: number, out: number): number;
   lks_client_stats(client: number, stats: number): number;
   lks_client_ask(client: number, kind: number, topic: number, choice: number): number;

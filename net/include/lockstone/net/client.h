@@ -44,7 +44,7 @@ enum class ClientFailure : std::uint8_t {
 struct ClientConfig {
   /// For a transport that does not encrypt; the server must ask for this too.
   bool insecure = false;
-  std::string name;                      ///< printable ASCII, the first 32 characters
+  std::string name;                      ///< as PlayerName takes it
   std::uint8_t wanted_slot = k_no_slot;  ///< k_no_slot: any; k_spectator_slot: only watch
   std::string build;             ///< of the game and the machine, for reports; 64 characters
   std::uint64_t rejoin_key = 0;  ///< Client::rejoin_key of a former process: the same seat again
@@ -93,6 +93,8 @@ class ClientObserver {
   /// From `tick` on, the player of `slot` plays: it came late, or came back.
   virtual void player_active(std::uint8_t slot, std::uint64_t tick);
   virtual void pause_changed(bool paused);
+  /// The player of `slot` has this name: told of all players, also of this one.
+  virtual void player_named(std::uint8_t slot, std::string_view name);
   /// The server replaced this player's input for a tick: it came too late.
   virtual void input_replaced(std::uint64_t tick);
   /// Rollback: a tick was stepped on guesses. It may be stepped again, then told of again.
@@ -161,6 +163,10 @@ class Client {
   [[nodiscard]] const Refusal& refusal() const;
   [[nodiscard]] FinishReason finish_reason() const;
   [[nodiscard]] std::uint8_t slot() const;  ///< k_no_slot before being seated
+
+  /// The name of a slot's player, kept after it left; empty where it gave none, or before the
+  /// server told it.
+  [[nodiscard]] std::string_view player_name(std::uint8_t slot) const;
 
   /// How many confirmed ticks were stepped.
   [[nodiscard]] std::uint64_t ticks_stepped() const;

@@ -169,6 +169,9 @@ class Server {
   /// hashes (LatePolicy::strict, Pacing::fast).
   [[nodiscard]] std::uint16_t waiting_mask() const;
 
+  /// The name of a slot's player, kept after it left. `slot` is below the player count.
+  [[nodiscard]] std::string_view player_name(std::uint8_t slot) const;
+
   /// Counters of a slot's player, kept after it left. `slot` is below the player count.
   [[nodiscard]] PlayerStats stats(std::uint8_t slot) const;
 

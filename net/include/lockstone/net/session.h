@@ -70,6 +70,7 @@ struct DesyncReport {
   Verdict verdict = Verdict::undecided;
   std::uint64_t hash_here = 0;  ///< the server's, or of the player that speaks for the others
   std::uint64_t hash_there = 0;
+  std::string name;  ///< of that player; empty where it gave none
   std::string part;  ///< of the state, where only its 128 bits showed that they differ; else empty
   StateDifference difference;  ///< `differs` is false if a dump or a describing simulation lacked
   ByteView dump_here;  ///< canonical snapshots, valid during the callback; empty when not had
@@ -77,8 +78,8 @@ struct DesyncReport {
   std::string build_here;  ///< from the player's Hello; the server's own: empty
   std::string build_there;
 
-  /// `tick 1842, player 2, body 17 "crate", velocity.y: 0x… here, 0x… there`; with the hashes
-  /// instead of a field where the difference is not known.
+  /// `tick 1842, player 2 "Ann", body 17 "crate", velocity.y: 0x… here, 0x… there`; with the
+  /// hashes instead of a field where the difference is not known.
   [[nodiscard]] std::string to_line() const;
 };
 

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include <lockstone/bytes.h>
+#include <lockstone/net/player_name.h>
 #include <lockstone/net/reasons.h>
 #include <lockstone/net/transport.h>
 #include <lockstone/simulation.h>
@@ -21,10 +22,9 @@
 namespace lockstone::net {
 
 inline constexpr std::uint32_t k_protocol_magic = 0x4e534b4c;  ///< "LKSN"
-inline constexpr std::uint16_t k_protocol_version = 4;
+inline constexpr std::uint16_t k_protocol_version = 5;
 inline constexpr std::uint8_t k_any_slot = 255;
 inline constexpr std::uint64_t k_max_tick = std::uint64_t{1} << 62;  ///< no tick or count is above
-inline constexpr std::size_t k_max_name_bytes = 32;
 inline constexpr std::size_t k_max_text_bytes = 96;
 inline constexpr std::size_t k_max_build_bytes = 64;
 inline constexpr std::size_t k_max_config_bytes = 32 * 1024;
@@ -56,6 +56,7 @@ enum class MessageType : std::uint8_t {
   ask = 18,
   paused = 19,
   parts = 20,
+  named = 21,
 };
 [[nodiscard]] std::string_view to_string(MessageType type);
 
@@ -77,7 +78,6 @@ class FixedText {
   std::array<char, k_capacity> chars_{};
   std::size_t size_ = 0;
 };
-using NameText = FixedText<k_max_name_bytes>;
 using FieldText = FixedText<k_max_text_bytes>;
 using BuildText = FixedText<k_max_build_bytes>;
 
@@ -89,7 +89,7 @@ struct Hello {
   std::uint64_t rejoin_key = 0;           ///< from an earlier Welcome; 0: never was here
   std::uint64_t ticks_stepped = 0;        ///< the state after this many ticks is still here
   std::uint64_t state_hash = 0;           ///< its hash; 0 after 0 ticks
-  NameText name;
+  PlayerName name;
   BuildText build;  ///< of the game, and the processor: for reports
 };
 
@@ -257,6 +257,12 @@ struct Parts {
   std::array<Hash128, k_max_state_parts> hashes{};
 };
 
+/// Server: the name of the player that sits in `slot`, or sat there last.
+struct Named {
+  std::uint8_t slot = 0;
+  PlayerName name;
+};
+
 /// Either: the last message of a connection.
 struct Bye {
   LeaveReason reason = LeaveReason::left;
@@ -284,6 +290,7 @@ struct Bye {
 [[nodiscard]] std::size_t encode(const Ask& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Paused& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Parts& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Named& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Bye& message, std::span<std::byte> out);
 
 [[nodiscard]] Status decode(ByteView packet, Hello& message);
@@ -305,6 +312,7 @@ struct Bye {
 [[nodiscard]] Status decode(ByteView packet, Ask& message);
 [[nodiscard]] Status decode(ByteView packet, Paused& message);
 [[nodiscard]] Status decode(ByteView packet, Parts& message);
+[[nodiscard]] Status decode(ByteView packet, Named& message);
 [[nodiscard]] Status decode(ByteView packet, Bye& message);
 
 /// Header bytes of Inputs (without hashes) and Ticks: the rest of a datagram holds the records.

@@ -58,6 +58,7 @@ struct Seat : Follower {
   bool expelled = false;   ///< and for good
   bool confirmed = false;  ///< its player has spoken since it was told its key
   PlayerStats stats;
+  PlayerName name;  ///< of the player that sits here, or sat here last
 
   /// Its player is here and has a say in tick `tick`.
   [[nodiscard]] bool plays(std::uint64_t tick) const {

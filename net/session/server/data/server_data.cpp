@@ -68,6 +68,13 @@ std::optional<std::uint64_t> final_hash(const ServerData& data) {
   return data.judge.right().at(ticks - 1);
 }
 
+void tell_names(ServerData& data, const Peer& peer) {
+  for (std::uint8_t slot = 0; slot < data.roster.seats().size(); ++slot) {
+    const PlayerName& name = data.roster.seat(slot).name;
+    if (!name.view().empty()) data.peers.tell(peer, Named{slot, name});
+  }
+}
+
 Welcome welcome_of(const ServerData& data, std::uint8_t slot, Entry way) {
   const bool plays = data.roster.is_slot(slot);
   const std::uint64_t key = plays ? data.roster.seat(slot).rejoin_key : 0;

@@ -94,6 +94,9 @@ struct ServerData {
 /// The hash of the state after the last confirmed tick, if it is known.
 [[nodiscard]] std::optional<std::uint64_t> final_hash(const ServerData& data);
 
+/// Tells a peer that was just admitted the names of the players in all seats.
+void tell_names(ServerData& data, const Peer& peer);
+
 /// The greeting of a client that is admitted to `slot`.
 [[nodiscard]] Welcome welcome_of(const ServerData& data, std::uint8_t slot, Entry way);
 

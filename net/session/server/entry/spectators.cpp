@@ -35,6 +35,7 @@ void Spectators::admit(Peer& peer) {
   } else {
     welcome_to_running_match(*watcher);
   }
+  tell_names(data_, peer);
 }
 
 // From where it was, or the first tick, where all ticks since are still there and not too many.

@@ -101,6 +101,7 @@ enum class EventKind : std::uint8_t {
   leave = 2,
   substitution = 3,  ///< for people: the origins in the INPUT chunks are decisive
   note = 4,
+  name = 5,  ///< the text is the name of the slot's player from here on
 };
 
 /// "join", …; "event" for a kind that this build does not know.

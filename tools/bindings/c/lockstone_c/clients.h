@@ -35,7 +35,7 @@ typedef struct lks_client_def {
   uint64_t rejoin_key;             /* of a former process: the same seat again */
   int64_t handshake_us;
   int64_t drop_us;
-  char name[40];  /* printable ASCII, the first 32 characters; terminated */
+  char name[40];  /* UTF-8, at most 32 bytes, no control characters; terminated */
   char build[72]; /* of the game and the machine, for reports; terminated */
 } lks_client_def;
 LKS_API lks_status lks_client_def_init(lks_client_def* def, size_t size);
@@ -89,6 +89,11 @@ LKS_API lks_status lks_client_get(const lks_client* client, lks_client_view* vie
 
 /* Why the client was refused or failed, for people; empty otherwise. */
 LKS_API lks_status lks_client_reason(const lks_client* client, char* out, size_t capacity);
+
+/* The name of a slot's player, terminated; empty where it gave none, or before the server told it.
+ * Kept after the player left. 33 bytes hold every name. */
+LKS_API lks_status lks_client_player_name(const lks_client* client, uint32_t slot, char* out,
+                                          size_t capacity);
 
 /* The simulation, for reading; LKS_NOT_FOUND before the server's offer was understood. */
 LKS_API lks_status lks_client_simulation(const lks_client* client, lks_simulation** out);

@@ -68,6 +68,10 @@ typedef struct lks_log_info {
 /* Reads the whole log, without simulating anything. `info->size` must be set. */
 LKS_API lks_status lks_log_get_info(lks_log* log, lks_log_info* info);
 
+/* Reads the whole log for the last name of a slot's player; terminated, empty where it tells none.
+ * 257 bytes hold every name. */
+LKS_API lks_status lks_log_player_name(lks_log* log, uint32_t slot, char* out, size_t capacity);
+
 /* The configuration bytes, for the game. `count` is their number. */
 LKS_API lks_status lks_log_config(lks_log* log, void* out, size_t capacity, size_t* count);
 

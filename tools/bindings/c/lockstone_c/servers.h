@@ -90,6 +90,10 @@ typedef struct lks_server_view {
 } lks_server_view;
 LKS_API lks_status lks_server_get(const lks_server* server, lks_server_view* view);
 
+/* As lks_client_player_name. */
+LKS_API lks_status lks_server_player_name(const lks_server* server, uint32_t slot, char* out,
+                                          size_t capacity);
+
 /* Kept after the player left. */
 LKS_API lks_status lks_server_stats(const lks_server* server, uint32_t slot,
                                     lks_session_stats* stats);

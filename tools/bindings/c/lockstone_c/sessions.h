@@ -23,6 +23,7 @@ enum {
   LKS_SESSION_SILENT = 5,        /* slot (server), value: since how many µs nothing came */
   LKS_SESSION_JOINED = 6,        /* slot; text: the player's name (server) */
   LKS_SESSION_PLAYER_ACTIVE = 7, /* slot, tick: from then on it plays */
+  LKS_SESSION_NAMED = 8,         /* slot; text: the name of its player (client) */
   /* Of a server. */
   LKS_SESSION_LEFT = 16,    /* slot, reason; text */
   LKS_SESSION_REFUSED = 17, /* reason; text */

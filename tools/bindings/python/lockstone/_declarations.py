@@ -127,6 +127,7 @@ LKS_SESSION_DESYNC = 4
 LKS_SESSION_SILENT = 5
 LKS_SESSION_JOINED = 6
 LKS_SESSION_PLAYER_ACTIVE = 7
+LKS_SESSION_NAMED = 8
 LKS_SESSION_LEFT = 16
 LKS_SESSION_REFUSED = 17
 LKS_SESSION_ASKED = 18
@@ -1045,6 +1046,7 @@ FUNCTIONS = {
     "lks_client_event_text": [c_int32, c_void_p, c_size_t, c_void_p, c_size_t],
     "lks_client_get": [c_int32, c_void_p, POINTER(lks_client_view)],
     "lks_client_reason": [c_int32, c_void_p, c_void_p, c_size_t],
+    "lks_client_player_name": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t],
     "lks_client_simulation": [c_int32, c_void_p, POINTER(c_void_p)],
     "lks_client_stats": [c_int32, c_void_p, POINTER(lks_session_stats)],
     "lks_client_ask": [c_int32, c_void_p, c_uint32, c_uint32, c_uint32],
@@ -1086,6 +1088,7 @@ FUNCTIONS = {
     "lks_log_open_bytes": [c_int32, c_void_p, c_size_t, POINTER(c_void_p)],
     "lks_log_close": [None, c_void_p],
     "lks_log_get_info": [c_int32, c_void_p, POINTER(lks_log_info)],
+    "lks_log_player_name": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t],
     "lks_log_config": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_size_t)],
     "lks_log_next": [c_int32, c_void_p, POINTER(c_uint64), c_void_p, c_size_t, POINTER(c_uint32), POINTER(c_uint64)],
     "lks_log_seek": [c_int32, c_void_p, c_void_p, c_uint64, POINTER(c_void_p)],
@@ -1129,6 +1132,7 @@ FUNCTIONS = {
     "lks_server_stop": [c_int32, c_void_p],
     "lks_server_pause": [c_int32, c_void_p, c_uint32],
     "lks_server_get": [c_int32, c_void_p, POINTER(lks_server_view)],
+    "lks_server_player_name": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t],
     "lks_server_stats": [c_int32, c_void_p, c_uint32, POINTER(lks_session_stats)],
     "lks_hash": [c_int32, c_void_p, POINTER(c_uint64)],
     "lks_part_hashes": [c_int32, c_void_p, POINTER(lks_hashes)],

@@ -131,6 +131,12 @@ def ticks_of(events: List[SessionEvent]) -> List[Tuple[int, int]]:
     return [(event.tick, event.hash) for event in events if event.kind == c.LKS_SESSION_TICK]
 
 
+def _name(prefix: str, handle: c_void_p, slot: int) -> str:
+    text = (c_char * 64)()
+    getattr(lib, f"lks_{prefix}_player_name")(handle, slot, text, len(text))
+    return text.value.decode()
+
+
 class Server:
     """Seats the players, closes tick after tick, compares states. Settings are the fields of lks_server_def."""
 
@@ -154,6 +160,10 @@ class Server:
 
     def stop(self) -> None:
         lib.lks_server_stop(self.handle)
+
+    def player_name(self, slot: int) -> str:
+        """The name that a slot's player gave; kept after it left."""
+        return _name("server", self.handle, slot)
 
     @property
     def view(self) -> Any:
@@ -216,6 +226,10 @@ class Client:
         text = (c_char * 512)()
         lib.lks_client_reason(self.handle, text, len(text))
         return text.value.decode(errors="replace")
+
+    def player_name(self, slot: int) -> str:
+        """The name that a slot's player gave, as the server told it; kept after it left."""
+        return _name("client", self.handle, slot)
 
     @property
     def simulation(self) -> Simulation:

@@ -1047,6 +1047,7 @@ namespace Lockstone.Interop
         public const uint LKS_SESSION_SILENT = 5;
         public const uint LKS_SESSION_JOINED = 6;
         public const uint LKS_SESSION_PLAYER_ACTIVE = 7;
+        public const uint LKS_SESSION_NAMED = 8;
         public const uint LKS_SESSION_LEFT = 16;
         public const uint LKS_SESSION_REFUSED = 17;
         public const uint LKS_SESSION_ASKED = 18;
@@ -1296,6 +1297,9 @@ namespace Lockstone.Interop
         public static extern int lks_client_reason(IntPtr client, byte* @out, UIntPtr capacity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_client_player_name(IntPtr client, uint slot, byte* @out, UIntPtr capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_client_simulation(IntPtr client, IntPtr* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -1417,6 +1421,9 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_log_get_info(IntPtr log, lks_log_info* info);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_log_player_name(IntPtr log, uint slot, byte* @out, UIntPtr capacity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_log_config(IntPtr log, void* @out, UIntPtr capacity, UIntPtr* count);
@@ -1546,6 +1553,9 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_server_get(IntPtr server, lks_server_view* view);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_server_player_name(IntPtr server, uint slot, byte* @out, UIntPtr capacity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_server_stats(IntPtr server, uint slot, lks_session_stats* stats);

@@ -262,6 +262,14 @@ namespace Lockstone
             }
         }
 
+        /// <summary>The name that a slot's player gave; kept after it left.</summary>
+        public string PlayerName(int slot)
+        {
+            byte* text = stackalloc byte[64];
+            Call.Check(Native.lks_client_player_name(Pointer, (uint)slot, text, (UIntPtr)64));
+            return Call.Text(text);
+        }
+
         /// <summary>Why it was refused or failed, for people; else empty.</summary>
         public string Reason
         {

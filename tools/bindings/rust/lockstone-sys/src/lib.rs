@@ -162,6 +162,7 @@ pub const LKS_SESSION_DESYNC: u32 = 4;
 pub const LKS_SESSION_SILENT: u32 = 5;
 pub const LKS_SESSION_JOINED: u32 = 6;
 pub const LKS_SESSION_PLAYER_ACTIVE: u32 = 7;
+pub const LKS_SESSION_NAMED: u32 = 8;
 pub const LKS_SESSION_LEFT: u32 = 16;
 pub const LKS_SESSION_REFUSED: u32 = 17;
 pub const LKS_SESSION_ASKED: u32 = 18;
@@ -1061,6 +1062,7 @@ extern "C" {
     pub fn lks_client_event_text(client: *const lks_client, index: usize, out: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_client_get(client: *const lks_client, view: *mut lks_client_view) -> lks_status;
     pub fn lks_client_reason(client: *const lks_client, out: *mut c_char, capacity: usize) -> lks_status;
+    pub fn lks_client_player_name(client: *const lks_client, slot: u32, out: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_client_simulation(client: *const lks_client, out: *mut *mut lks_simulation) -> lks_status;
     pub fn lks_client_stats(client: *const lks_client, stats: *mut lks_session_stats) -> lks_status;
     pub fn lks_client_ask(client: *mut lks_client, kind: u32, topic: u32, choice: u32) -> lks_status;
@@ -1102,6 +1104,7 @@ extern "C" {
     pub fn lks_log_open_bytes(bytes: *const c_void, count: usize, out: *mut *mut lks_log) -> lks_status;
     pub fn lks_log_close(log: *mut lks_log);
     pub fn lks_log_get_info(log: *mut lks_log, info: *mut lks_log_info) -> lks_status;
+    pub fn lks_log_player_name(log: *mut lks_log, slot: u32, out: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_log_config(log: *mut lks_log, out: *mut c_void, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_log_next(log: *mut lks_log, tick: *mut u64, inputs: *mut c_void, bytes: usize, origins: *mut u32, hash: *mut u64) -> lks_status;
     pub fn lks_log_seek(log: *mut lks_log, game: *const lks_game, tick: u64, out: *mut *mut lks_simulation) -> lks_status;
@@ -1145,6 +1148,7 @@ extern "C" {
     pub fn lks_server_stop(server: *mut lks_server) -> lks_status;
     pub fn lks_server_pause(server: *mut lks_server, paused: u32) -> lks_status;
     pub fn lks_server_get(server: *const lks_server, view: *mut lks_server_view) -> lks_status;
+    pub fn lks_server_player_name(server: *const lks_server, slot: u32, out: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_server_stats(server: *const lks_server, slot: u32, stats: *mut lks_session_stats) -> lks_status;
     pub fn lks_hash(world: *const lks_world, out: *mut u64) -> lks_status;
     pub fn lks_part_hashes(world: *const lks_world, out: *mut lks_hashes) -> lks_status;

@@ -234,6 +234,12 @@ impl<G: Game> Client<G> {
             _ => ClientState::Failed,
         }
     }
+    /// The name that a slot's player gave; kept after it left.
+    pub fn player_name(&self, slot: u32) -> Result<String> {
+        let mut text = [0; 64];
+        check(unsafe { sys::lks_client_player_name(self.handle, slot, text.as_mut_ptr(), text.len()) })?;
+        Ok(text_in(&text))
+    }
     /// Why it was refused or failed, for people.
     pub fn reason(&self) -> String {
         let mut text = [0; 512];
