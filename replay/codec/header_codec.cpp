@@ -27,7 +27,7 @@ constexpr std::uint64_t k_payload_seed = 3;
 constexpr std::size_t k_frame_checksum_offset = k_chunk_header_bytes - k_checksum_bytes;
 
 // The longest INPUT payload; tests relate it to InputEncoder::bytes_max.
-constexpr std::size_t k_max_input_payload_bytes = 2U << 20;
+constexpr std::size_t k_max_input_payload_bytes = 5U << 20;
 
 // The integers of the header behind its simulation's, in the order of the file.
 template <class Match, class Visit>
@@ -82,10 +82,11 @@ DecodeFault get_text(ByteReader& reader, std::string& text, std::size_t limit) {
   return {};
 }
 
-DecodeFault check_ranges(const LogHeader& header) {
+DecodeFault check_ranges(const LogHeader& header, std::uint16_t version) {
   const SimulationInfo& info = header.info;
   if (info.tick_rate == 0) return malformed(40, "tick rate is 0");
-  if (info.player_count == 0 || info.player_count > k_max_players) {
+  const std::size_t most = version == k_oldest_format_version ? k_old_max_players : k_max_players;
+  if (info.player_count == 0 || info.player_count > most) {
     return malformed(42, "player count out of range");
   }
   if (info.input_bytes == 0 || info.input_bytes > k_max_input_bytes) {
@@ -173,7 +174,8 @@ DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t&
   }
   ByteReader reader(covered);
   (void)reader.get_bytes(k_magic.size());
-  if (reader.get<std::uint16_t>() != k_format_version) {
+  const auto version = reader.get<std::uint16_t>();
+  if (version < k_oldest_format_version || version > k_format_version) {
     return {Status::unsupported_version, 8,
             "of another format version than this build reads; record it again"};
   }
@@ -187,7 +189,7 @@ DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t&
   });
   if (!fault.ok()) return fault;
   if (reader.remaining() != 0) return malformed(reader.position(), "bytes after the last text");
-  return check_ranges(header);
+  return check_ranges(header, version);
 }
 
 std::uint64_t payload_checksum(ByteView stored) {

@@ -268,6 +268,29 @@ TEST(RecordCoder, GivesBackRandomRuns) {
   }
 }
 
+TEST(RecordCoder, WritesARecordAsAWholeWhereThatIsShorter) {
+  std::array<std::byte, 64> room{};
+  RecordWriter writer(room, 16);
+  std::array<std::byte, 16> record{};
+  record.fill(std::byte{7});
+  ASSERT_TRUE(writer.add(record));
+  EXPECT_EQ(writer.written().size(), 17U);
+  EXPECT_EQ(writer.written()[0], std::byte{0x81});
+  record[3] = std::byte{8};
+  ASSERT_TRUE(writer.add(record));
+  EXPECT_EQ(writer.written().size(), 17U + 1 + 2 + 1);
+  RecordReader reader(writer.written(), 16);
+  ASSERT_TRUE(reader.next() && reader.next());
+  EXPECT_TRUE(std::equal(record.begin(), record.end(), reader.record().begin()));
+  EXPECT_TRUE(reader.at_end());
+}
+
+TEST(RecordCoder, RefusesAWholeRecordThatEqualsTheOneBefore) {
+  const std::array<std::byte, 3> coded{std::byte{0x81}, std::byte{0}, std::byte{0}};
+  EXPECT_FALSE(RecordReader(coded, 2).next());
+  EXPECT_FALSE(RecordReader(ByteView(coded).first(2), 2).next());
+}
+
 TEST(RecordCoder, HasTheDocumentedBytes) {
   std::array<std::byte, 16> room{};
   RecordWriter writer(room, 2);
@@ -290,10 +313,13 @@ TEST(RecordCoder, CodesARestingPlayerInOneByte) {
 }
 
 TEST(TickRecord, LargestFitsOneDatagramUncompressed) {
-  constexpr TickShape k_largest{k_max_players, k_max_input_bytes};
-  EXPECT_EQ(k_largest.record_bytes(), k_max_record_bytes);
-  EXPECT_LE(k_ticks_header_bytes + 1 + (k_max_record_bytes + 7) / 8 + k_max_record_bytes,
-            k_max_datagram_bytes);
+  constexpr TickShape k_largest{k_max_players, k_max_tick_input_bytes / k_max_players};
+  ASSERT_EQ(k_largest.record_bytes(), k_max_record_bytes);
+  std::array<std::byte, k_max_datagram_bytes - k_ticks_header_bytes> room{};
+  RecordWriter writer(room, k_max_record_bytes);
+  std::array<std::byte, k_max_record_bytes> record{};
+  record.fill(std::byte{1});
+  EXPECT_TRUE(writer.add(record));
 }
 
 TEST(TickRecord, RefusesBytesOfAnAbsentPlayerAndStrayBits) {

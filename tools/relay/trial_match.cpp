@@ -273,7 +273,7 @@ const SimulationFactory& TrialMatch::factory() const {
 std::uint64_t TrialMatch::ticks_confirmed() const {
   return impl_->server->ticks_confirmed();
 }
-std::uint16_t TrialMatch::present_mask() const {
+net::SlotMask TrialMatch::present_mask() const {
   return impl_->server->present_mask();
 }
 std::int64_t TrialMatch::longest_server_gap_us() const {
@@ -292,7 +292,7 @@ unsigned TrialMatch::entries_of(std::uint64_t player) const {
   const auto found = impl_->door->entries.find(player);
   return found == impl_->door->entries.end() ? 0 : found->second;
 }
-std::uint16_t TrialMatch::port() const {
+net::SlotMask TrialMatch::port() const {
   return impl_->enet->port();
 }
 const net::EnetCounters& TrialMatch::socket_counters() const {

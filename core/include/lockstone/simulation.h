@@ -21,7 +21,7 @@
 namespace lockstone {
 
 /// Bound on the player slots of a match, and on the bytes of one player's input for one tick.
-inline constexpr std::size_t k_max_players = 16;
+inline constexpr std::size_t k_max_players = 64;
 inline constexpr std::size_t k_max_input_bytes = 64;
 
 /// Two peers must agree on all of this before they play.

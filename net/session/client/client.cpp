@@ -64,7 +64,7 @@ std::string_view Client::player_name(std::uint8_t slot) const {
 std::uint64_t Client::ticks_stepped() const {
   return impl_->data.progress.stepped;
 }
-std::uint16_t Client::waiting_mask() const {
+SlotMask Client::waiting_mask() const {
   return impl_->data.status.waiting;
 }
 std::uint64_t Client::ticks_predicted() const {

@@ -29,7 +29,7 @@ struct ClientStatus {
   std::int64_t now_us = 0;
   bool paused = false;
   bool over = false;          ///< the match is: nothing is kept back
-  std::uint16_t waiting = 0;  ///< bit n: the match waits for slot n
+  SlotMask waiting = 0;       ///< bit n: the match waits for slot n
 
   /// Neither finished nor refused nor failed.
   [[nodiscard]] bool active() const { return state < ClientState::finished; }
@@ -51,7 +51,7 @@ struct ClientPlace {
   bool seated = false;
   std::uint64_t rejoin_key = 0;
   std::uint64_t active_tick = k_never;  ///< own inputs count from here on
-  std::uint16_t present_mask = 0;       ///< at the start
+  SlotMask present_mask = 0;            ///< at the start
 
   [[nodiscard]] bool spectates() const { return welcome.slot == k_spectator_slot; }
   [[nodiscard]] bool plays() const { return active_tick != k_never; }

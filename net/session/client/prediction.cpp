@@ -102,7 +102,7 @@ void Prediction::guess_slot(std::span<std::byte> record, std::uint8_t slot) {
   const std::span<std::byte> input = std::span(bytes).first(shape.input_bytes);
   const std::uint64_t stepped = data_.progress.stepped;
   const ByteView known = stepped == 0 ? ByteView{} : data_.ticks.find(stepped - 1);
-  const bool present = ((place.present_mask >> slot) & 1) != 0;
+  const bool present = has_slot(place.present_mask, slot);
   InputOrigin origin = present ? InputOrigin::received : InputOrigin::absent;
   if (!known.empty()) {
     const PlayerInput last = get_slot(known, shape, slot);

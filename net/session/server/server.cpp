@@ -65,10 +65,10 @@ FinishReason Server::finish_reason() const {
 std::uint64_t Server::ticks_confirmed() const {
   return impl_->data.match.confirmed;
 }
-std::uint16_t Server::present_mask() const {
+SlotMask Server::present_mask() const {
   return impl_->data.roster.present_mask();
 }
-std::uint16_t Server::waiting_mask() const {
+SlotMask Server::waiting_mask() const {
   return impl_->data.match.waiting;
 }
 PlayerStats Server::stats(std::uint8_t slot) const {

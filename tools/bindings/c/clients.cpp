@@ -279,7 +279,8 @@ lks_status lks_client_get(const lks_client* client, lks_client_view* view) {
     raw.finish_reason = static_cast<std::uint32_t>(source.finish_reason());
     raw.may_reconnect = source.may_reconnect() ? 1 : 0;
     raw.paused = source.paused() ? 1 : 0;
-    raw.waiting_mask = source.waiting_mask();
+    raw.waiting = source.waiting_mask();
+    raw.waiting_mask = static_cast<std::uint32_t>(raw.waiting);
     give(raw, view, required(view, "view").size, "view");
   });
 }

@@ -285,8 +285,10 @@ lks_status lks_server_get(const lks_server* server, lks_server_view* view) {
     raw.ticks_closed = source.ticks_confirmed();
     if (source.state() >= net::ServerState::closing)
       raw.finish_reason = static_cast<std::uint32_t>(source.finish_reason());
-    raw.present_mask = source.present_mask();
-    raw.waiting_mask = source.waiting_mask();
+    raw.present = source.present_mask();
+    raw.waiting = source.waiting_mask();
+    raw.present_mask = static_cast<std::uint32_t>(raw.present);
+    raw.waiting_mask = static_cast<std::uint32_t>(raw.waiting);
     raw.spectators = static_cast<std::uint32_t>(source.spectators());
     raw.paused = source.paused() ? 1 : 0;
     give(raw, view, required(view, "view").size, "view");

@@ -394,7 +394,7 @@ void add_join_command(CLI::App& app, Tool& tool) {
       ->check(CLI::Range(0, 15))
       ->capture_default_str();
   command->add_option("--slot", options->slot, "Player slot; any when not given")
-      ->check(CLI::Range(0, 15));
+      ->check(CLI::Range(std::size_t{0}, k_max_players - 1));
   command
       ->add_option("--reconnect", options->reconnect,
                    "Call again for this many seconds when the connection is lost; 0: never")

@@ -82,7 +82,7 @@ struct MatchHost::Impl final : net::ServerObserver {
   std::uint64_t ticks_seen = 0;
   std::unique_ptr<MetricsPort> metrics_port;
   HostOrders wanted;
-  std::optional<std::uint16_t> resume_mask;  ///< of a match that goes on
+  std::optional<net::SlotMask> resume_mask;  ///< of a match that goes on
   std::vector<TarEntry> bundle;              ///< of the first desync, without the log
 
   void say(const JournalEntry& entry) {
@@ -415,7 +415,7 @@ std::string MatchHost::progress_line() const {
   std::string line = fmt::format("tick {}", ticks_confirmed());
   if (impl_->options.ticks > 0) line += fmt::format(" of {}", impl_->options.ticks);
   line += fmt::format(", {} players", present);
-  const std::uint16_t waiting = impl_->server->waiting_mask();
+  const net::SlotMask waiting = impl_->server->waiting_mask();
   if (waiting != 0 && !impl_->options.fast) {
     line += ", waiting for " + impl_->player(static_cast<std::uint8_t>(std::countr_zero(waiting)));
   }

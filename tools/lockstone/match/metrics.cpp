@@ -148,7 +148,7 @@ nlohmann::ordered_json json_of(const MatchMetrics& metrics) {
   nlohmann::ordered_json players = nlohmann::ordered_json::array();
   for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
     nlohmann::ordered_json player{{"slot", slot},
-                                  {"present", ((metrics.present_mask >> slot) & 1) != 0}};
+                                  {"present", net::has_slot(metrics.present_mask, slot)}};
     if (slot < metrics.names.size()) player["name"] = metrics.names[slot];
     for (const PlayerFigure& figure : k_figures)
       player[figure.name] = figure.value(metrics.players[slot]);
@@ -250,7 +250,7 @@ std::string metrics_as_text(const MatchMetrics& metrics) {
     }
   }
   for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
-    const bool present = ((metrics.present_mask >> slot) & 1) != 0;
+    const bool present = net::has_slot(metrics.present_mask, slot);
     const std::string name = slot < metrics.names.size() ? metrics.names[slot] : std::string();
     text += fmt::format("{} ({}):", net::player_text(static_cast<unsigned>(slot), name),
                         present ? "here" : "away");

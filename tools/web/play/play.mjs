@@ -3,7 +3,7 @@ import { Client, View, loadSession } from "lockstone/session";
 import { Picture } from "../testbed/picture.mjs";
 
 const KEYS = { KeyW: "up", ArrowUp: "up", KeyS: "down", ArrowDown: "down", KeyA: "left", ArrowLeft: "left", KeyD: "right", ArrowRight: "right" };
-const SEATS = 16;
+const SEATS = 64;
 const BUTTONS = { Space: 1, KeyE: 2, KeyF: 4, KeyX: 8 };
 const seat = new URLSearchParams(location.search).get("seat") ?? "0";
 const { url, token } = await (await fetch(`/seat/${seat}`)).json();

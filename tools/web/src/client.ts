@@ -216,8 +216,8 @@ export class Client {
     return this.view(c.lks_client_view.paused) === 1;
   }
   /** Bit n: the match waits for slot n. */
-  get waitingMask(): number {
-    return this.view(c.lks_client_view.waiting_mask);
+  get waitingMask(): bigint {
+    return this.view64(c.lks_client_view.waiting);
   }
   private get mayReconnect(): boolean {
     return this.view(c.lks_client_view.may_reconnect) === 1;

@@ -178,7 +178,7 @@ class Client {
   [[nodiscard]] std::optional<std::uint64_t> active_tick() const;
 
   /// Bit n: the match waits for slot n, as of the last word from the server.
-  [[nodiscard]] std::uint16_t waiting_mask() const;
+  [[nodiscard]] SlotMask waiting_mask() const;
 
   /// The simulation, once the server's offer was understood; else null. Do not step or load it.
   [[nodiscard]] Simulation* simulation() const;

@@ -70,7 +70,7 @@ struct ServerConfig {
   /// The match goes on from where the simulation stands, above tick 0: its server was killed. It
   /// waits for these slots' players (bit n: slot n), at most Timeouts::drop_us after the first
   /// came.
-  std::optional<std::uint16_t> resume_mask;
+  std::optional<SlotMask> resume_mask;
   std::uint8_t input_delay_ticks = 4;  ///< 0 … 60
   LatePolicy late_policy = LatePolicy::deadline;
   Substitute substitute = Substitute::repeat;
@@ -163,11 +163,11 @@ class Server {
   [[nodiscard]] std::size_t spectators() const;
 
   /// Bit n: slot n is seated.
-  [[nodiscard]] std::uint16_t present_mask() const;
+  [[nodiscard]] SlotMask present_mask() const;
 
   /// Bit n: the match waits for slot n's input, or for a word that it has the ticks and their
   /// hashes (LatePolicy::strict, Pacing::fast).
-  [[nodiscard]] std::uint16_t waiting_mask() const;
+  [[nodiscard]] SlotMask waiting_mask() const;
 
   /// The name of a slot's player, kept after it left. `slot` is below the player count.
   [[nodiscard]] std::string_view player_name(std::uint8_t slot) const;

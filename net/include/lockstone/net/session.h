@@ -8,6 +8,7 @@
 
 #include <lockstone/bytes.h>
 #include <lockstone/net/reasons.h>
+#include <lockstone/net/slot_mask.h>
 #include <lockstone/simulation.h>
 
 namespace lockstone::net {
@@ -31,7 +32,7 @@ enum class SetupError : std::uint8_t {
   insecure_on_secure_transport,  ///< it does encrypt, and every client of it expects that
   match_config_too_long,
   player_count_out_of_range,
-  input_bytes_out_of_range,
+  input_bytes_out_of_range,  ///< also: above k_max_tick_input_bytes for all players together
   tick_rate_out_of_range,  ///< 1 … 1000
   input_delay_out_of_range,
   history_out_of_range,

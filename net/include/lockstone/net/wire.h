@@ -15,6 +15,7 @@
 #include <lockstone/bytes.h>
 #include <lockstone/net/player_name.h>
 #include <lockstone/net/reasons.h>
+#include <lockstone/net/slot_mask.h>
 #include <lockstone/net/transport.h>
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
@@ -134,7 +135,7 @@ struct Refuse {
 
 /// Server: all are seated, tick 0 begins.
 struct Start {
-  std::uint16_t present_mask = 0;  ///< bit n: somebody sits in slot n
+  SlotMask present_mask = 0;  ///< bit n: somebody sits in slot n
 };
 
 /// How long the parts of a tick are.
@@ -148,8 +149,9 @@ struct TickShape {
     return origin_bytes() + std::size_t{player_count} * input_bytes;
   }
 };
-inline constexpr std::size_t k_max_record_bytes =
-    (k_max_players + 3) / 4 + k_max_players * k_max_input_bytes;
+/// So that the largest tick fits into one datagram.
+inline constexpr std::size_t k_max_tick_input_bytes = 1024;  ///< of all players together
+inline constexpr std::size_t k_max_record_bytes = (k_max_players + 3) / 4 + k_max_tick_input_bytes;
 
 /// No inputs came since the last time that a margin was told.
 inline constexpr std::int8_t k_no_margin = -128;
@@ -173,7 +175,7 @@ struct Ticks {
   std::uint64_t ticks_confirmed = 0;          ///< how many ticks the server has confirmed
   std::uint64_t inputs_received = 0;          ///< this client need not send inputs below
   std::uint64_t hashes_received = 0;          ///< this client need not send hashes below
-  std::uint16_t waiting_mask = 0;             ///< slots that the match waits for (strict)
+  SlotMask waiting_mask = 0;                  ///< slots that the match waits for (strict)
   std::int8_t margin_quarters = k_no_margin;  ///< how early the last inputs came, quarter ticks
   ByteView coded;
 };
@@ -317,6 +319,7 @@ struct Bye {
 
 /// Header bytes of Inputs (without hashes) and Ticks: the rest of a datagram holds the records.
 inline constexpr std::size_t k_inputs_header_bytes = 1 + 8 + 8 + 1 + 8 + 1;
-inline constexpr std::size_t k_ticks_header_bytes = 1 + 8 + 1 + 8 + 8 + 8 + 2 + 1;
+inline constexpr std::size_t k_ticks_header_bytes = 1 + 8 + 1 + 8 + 8 + 8 + 8 + 1;
+static_assert(k_ticks_header_bytes + 1 + k_max_record_bytes <= k_max_datagram_bytes);
 
 }  // namespace lockstone::net

@@ -50,7 +50,7 @@ void DesyncResponse::condemn(std::uint8_t slot) {
   seat.await_state(0);
   seat.active_tick = k_never;
   data_.judge.set_present(slot, false);
-  match.waiting = static_cast<std::uint16_t>(match.waiting & ~(1U << slot));
+  match.waiting &= ~slot_bit(slot);
   const bool again = data_.offenders.was_resynced(seat.identity, slot);
   if (data_.config.desync_policy == DesyncPolicy::resync && !again) {
     data_.offenders.note_resync(seat.identity, slot);

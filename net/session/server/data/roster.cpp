@@ -42,20 +42,20 @@ Roster::Roster(const SimulationInfo& info, std::size_t spectators)
     place.inputs = TickRing(k_input_ring_ticks, info.input_bytes);
 }
 
-std::uint16_t Roster::present_mask() const {
-  unsigned mask = 0;
+SlotMask Roster::present_mask() const {
+  SlotMask mask = 0;
   for (std::size_t slot = 0; slot < seats_.size(); ++slot) {
-    if (seats_[slot].peer != nullptr) mask |= 1U << slot;
+    if (seats_[slot].peer != nullptr) mask |= slot_bit(slot);
   }
-  return static_cast<std::uint16_t>(mask);
+  return mask;
 }
 
-std::uint16_t Roster::active_mask() const {
-  unsigned mask = 0;
+SlotMask Roster::active_mask() const {
+  SlotMask mask = 0;
   for (std::size_t slot = 0; slot < seats_.size(); ++slot) {
-    if (seats_[slot].peer != nullptr && seats_[slot].active_tick != k_never) mask |= 1U << slot;
+    if (seats_[slot].peer != nullptr && seats_[slot].active_tick != k_never) mask |= slot_bit(slot);
   }
-  return static_cast<std::uint16_t>(mask);
+  return mask;
 }
 
 Follower* Roster::follower_of(const Peer& peer) {

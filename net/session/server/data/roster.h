@@ -88,10 +88,10 @@ class Roster {
   [[nodiscard]] bool is_slot(std::uint8_t slot) const { return slot < seats_.size(); }
 
   /// Bit n: slot n has a player here.
-  [[nodiscard]] std::uint16_t present_mask() const;
+  [[nodiscard]] SlotMask present_mask() const;
 
   /// Bit n: slot n's player is here and has a say, now or from a tick that is announced.
-  [[nodiscard]] std::uint16_t active_mask() const;
+  [[nodiscard]] SlotMask active_mask() const;
 
   /// The follower that a peer is; null for one that is still in the handshake.
   [[nodiscard]] Follower* follower_of(const Peer& peer);

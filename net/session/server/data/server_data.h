@@ -32,7 +32,7 @@ struct MatchStatus {
   std::int64_t state_since_us = 0;
   std::uint64_t confirmed = 0;         ///< the inputs of ticks 0 … confirmed - 1 are final
   std::uint64_t end_tick = 0;          ///< the match has ticks below
-  std::uint16_t waiting = 0;           ///< bit n: the next tick waits for slot n
+  SlotMask waiting = 0;                ///< bit n: the next tick waits for slot n
   std::int64_t waiting_since_us = 0;   ///< since then, if it waits for any
   bool paused = false;                 ///< no tick is confirmed
   std::int64_t expected_until_us = 0;  ///< resumed: so long somebody may come back

@@ -47,8 +47,7 @@ bool TickConfirmer::may_confirm_next() {
   if (!fast && match.now_us < due_us) return false;
   const bool waits = fast || data_.config.late_policy == LatePolicy::strict;
   const Laggards& laggards = uses_.laggards;
-  const auto missing = static_cast<std::uint16_t>(
-      waits ? laggards.missing_inputs_mask() | laggards.behind_mask() : 0);
+  const SlotMask missing = waits ? laggards.missing_inputs_mask() | laggards.behind_mask() : 0;
   if (missing != 0 && match.waiting == 0) match.waiting_since_us = match.now_us;
   match.waiting = missing;
   if (missing != 0) return false;

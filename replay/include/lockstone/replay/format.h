@@ -14,7 +14,10 @@
 namespace lockstone::replay {
 
 /// The version of the file header and of the chunk frame. Each chunk type has its own version too.
-inline constexpr std::uint16_t k_format_version = 3;
+/// Readers take the version before as well, which had at most k_old_max_players.
+inline constexpr std::uint16_t k_format_version = 4;
+inline constexpr std::uint16_t k_oldest_format_version = 3;
+inline constexpr std::size_t k_old_max_players = 16;
 inline constexpr std::uint8_t k_chunk_version = 1;
 
 /// Bounds that hold for every log. Readers refuse more before they allocate anything.

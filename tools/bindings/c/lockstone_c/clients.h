@@ -82,8 +82,9 @@ typedef struct lks_client_view {
   uint32_t finish_reason;
   uint32_t may_reconnect; /* 1: lks_client_reconnect may help */
   uint32_t paused;
-  uint32_t waiting_mask; /* bit n: the match waits for slot n */
+  uint32_t waiting_mask; /* the lower half of `waiting` */
   uint32_t reserved;     /* 0 */
+  uint64_t waiting;      /* bit n: the match waits for slot n */
 } lks_client_view;
 LKS_API lks_status lks_client_get(const lks_client* client, lks_client_view* view);
 

@@ -82,11 +82,13 @@ typedef struct lks_server_view {
   uint32_t state; /* LKS_SERVER_… */
   uint64_t ticks_closed;
   uint32_t finish_reason; /* from LKS_SERVER_CLOSING on */
-  uint32_t present_mask;  /* bit n: slot n is seated */
-  uint32_t waiting_mask;  /* bit n: the match waits for slot n */
+  uint32_t present_mask;  /* the lower halves of `present` and `waiting` */
+  uint32_t waiting_mask;
   uint32_t spectators;
   uint32_t paused;
   uint32_t reserved; /* 0 */
+  uint64_t present;  /* bit n: slot n is seated */
+  uint64_t waiting;  /* bit n: the match waits for slot n */
 } lks_server_view;
 LKS_API lks_status lks_server_get(const lks_server* server, lks_server_view* view);
 

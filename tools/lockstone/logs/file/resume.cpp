@@ -16,11 +16,11 @@ std::nullopt_t refuse(const std::string& path, std::string_view why) {
   return std::nullopt;
 }
 
-std::uint16_t playing(std::span<const PlayerInput> inputs) {
-  unsigned mask = 0;
+net::SlotMask playing(std::span<const PlayerInput> inputs) {
+  net::SlotMask mask = 0;
   for (std::size_t slot = 0; slot < inputs.size(); ++slot)
-    mask |= inputs[slot].origin == InputOrigin::absent ? 0U : 1U << slot;
-  return static_cast<std::uint16_t>(mask);
+    if (inputs[slot].origin != InputOrigin::absent) mask |= net::slot_bit(slot);
+  return mask;
 }
 
 // Walks to the last whole tick; returns the number of ticks.

@@ -58,7 +58,7 @@ typedef struct lockstone_game_info {
   uint64_t canary; /* 0: none */
   uint32_t abi;
   uint16_t tick_rate;
-  uint8_t player_count; /* 1 ... 16 */
+  uint8_t player_count; /* 1 ... 64 */
   uint8_t input_bytes;  /* 1 ... 64 */
 } lockstone_game_info;
 

@@ -20,7 +20,7 @@ pub struct Info {
     pub config_hash: u64,
     pub scene_hash: u64,
     pub tick_rate: u16,
-    /// 1 … 16
+    /// 1 … 64
     pub players: u8,
     /// Of one player, for one tick: 1 … 64.
     pub input_bytes: u8,
