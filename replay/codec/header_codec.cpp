@@ -241,6 +241,8 @@ std::size_t max_payload_bytes(ChunkType type) {
       return k_max_index_bytes;
     case ChunkType::signature:
       return k_signature_bytes;
+    case ChunkType::command:
+      return k_max_command_chunk_bytes;
     default:
       return k_max_keyframe_bytes;
   }
@@ -269,7 +271,8 @@ DecodeFault check_bounds(const ChunkHeader& chunk, const SimulationInfo& info) {
 }
 
 bool is_known(ChunkType type) {
-  return (type >= ChunkType::scene && type <= ChunkType::event) || type == ChunkType::end;
+  return (type >= ChunkType::scene && type <= ChunkType::event) || type == ChunkType::end ||
+         type == ChunkType::command;
 }
 
 }  // namespace lockstone::replay

@@ -25,6 +25,15 @@ void count_inputs(const LogReader& reader, LogInfo& info) {
   }
 }
 
+void count_commands(const LogReader& reader, LogInfo& info) {
+  for (std::size_t i = 0; i < reader.chunk().count; ++i) {
+    for (const PlayerCommand& command : reader.tick_commands(i)) {
+      ++info.commands;
+      info.command_bytes += command.bytes.size();
+    }
+  }
+}
+
 void list_events(const LogReader& reader, LogInfo& info) {
   info.event_count += reader.events().size();
   const std::size_t room = k_max_listed_events - info.events.size();
@@ -48,6 +57,7 @@ void take(LogItem item, const LogReader& reader, LogInfo& info) {
     case LogItem::inputs:
       return count_inputs(reader, info);
     case LogItem::hashes:
+      count_commands(reader, info);
       info.ticks += reader.hashes().size();
       info.last_hash = reader.hashes().back();
       return;

@@ -99,7 +99,7 @@ std::vector<Sample> samples() {
       sample("offer", Offer{true, config}),
       sample("answer", Answer{info}),
       sample("welcome",
-             Welcome{1, 2, 6, LatePolicy::strict, Pacing::fast, 3600, Entry::snapshot, 88}),
+             Welcome{1, 2, 6, LatePolicy::strict, Pacing::fast, 3600, Entry::snapshot, 88, 9}),
       sample("refuse", Refuse{RefuseReason::simulation_mismatch, RefuseField::canary, 5, 6}),
       sample("start", Start{0b11}),
       sample("inputs", some_inputs(random, inputs_room)),
@@ -119,6 +119,9 @@ std::vector<Sample> samples() {
       sample("paused", Paused{true}),
       sample("parts", Parts{1920, 2, {{{1, 2}, {3, 4}}}}),
       sample("named", Named{3, PlayerName("Zo\u00eb")}),
+      sample("command", CommandPiece{200, 100, config}),
+      sample("tick_command", TickCommand{1842, k_server_slot, 200, 100, config}),
+      sample("command_result", CommandResult{7, true}),
   };
 }
 
@@ -126,7 +129,7 @@ TEST(Wire, SamplesAreOneOfEachTypeInOrder) {
   std::size_t type = 0;
   for (const Sample& message : samples())
     EXPECT_EQ(message.bytes.at(0), static_cast<std::byte>(++type)) << message.name;
-  EXPECT_EQ(type, static_cast<std::size_t>(MessageType::named));
+  EXPECT_EQ(type, static_cast<std::size_t>(MessageType::command_result));
 }
 
 TEST(Wire, EveryMessageSurvivesTheRoundTrip) {
@@ -231,6 +234,16 @@ TEST(Wire, HasTheDocumentedBytes) {
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << i;
   }
+}
+
+TEST(Wire, RefusesCommandsOfNoBytesOrTooMany) {
+  const std::array<std::byte, 1> one{};
+  CommandPiece piece;
+  EXPECT_EQ(decode(encoded(CommandPiece{k_max_command_bytes, 0, one}), piece), Status::ok);
+  EXPECT_EQ(decode(encoded(CommandPiece{k_max_command_bytes + 1, 0, one}), piece),
+            Status::malformed);
+  EXPECT_EQ(decode(encoded(CommandPiece{8, 8, {}}), piece), Status::malformed);
+  EXPECT_EQ(decode(encoded(CommandPiece{8, 8, one}), piece), Status::malformed);
 }
 
 TEST(Wire, RefusesANameWithControlCharacters) {

@@ -95,6 +95,9 @@ Simulation* Client::simulation() const {
 ClientStats Client::stats() const {
   return current_stats(impl_->data);
 }
+Result<std::uint64_t> Client::send_command(ByteView bytes) {
+  return impl_->commands.give(bytes);
+}
 void Client::leave() {
   if (impl_->data.status.active()) impl_->end.leave();
 }
@@ -105,10 +108,11 @@ Client::Impl::Impl(const ClientConfig& config, ClientParts parts)
       playback(data, prediction),
       receiver(data),
       sender(data),
+      commands(data),
       dump(data, prediction),
       end(data, playback),
       entry(data, prediction, sender),
-      handshake(data, {prediction, entry, dump, end}) {}
+      handshake(data, {prediction, entry, dump, commands, end}) {}
 
 void Client::Impl::update(std::int64_t now_us) {
   LKS_ASSERT(!updated || now_us >= data.status.now_us);
@@ -118,7 +122,10 @@ void Client::Impl::update(std::int64_t now_us) {
   if (data.status.active()) watch_server();
   if (data.status.state == ClientState::running) play();
   const ClientState state = data.status.state;
-  if (state >= ClientState::lobby && state <= ClientState::running) sender.send_due();
+  if (state >= ClientState::lobby && state <= ClientState::running) {
+    commands.send_pieces();
+    sender.send_due();
+  }
   data.server.flush();
 }
 
@@ -190,6 +197,10 @@ bool Client::Impl::dispatch(ByteView packet) {
       return entry.on_activate(packet);
     case MessageType::paused:
       return on_paused(packet);
+    case MessageType::tick_command:
+      return commands.on_tick_command(packet);
+    case MessageType::command_result:
+      return commands.on_result(packet);
     case MessageType::named:
       return on_named(packet);
     case MessageType::finish:
@@ -289,6 +300,8 @@ bool Client::Impl::on_named(ByteView packet) {
 void ClientObserver::joined(std::uint8_t) {}
 void ClientObserver::match_started() {}
 void ClientObserver::tick_stepped(std::uint64_t, std::span<const PlayerInput>, std::uint64_t) {}
+void ClientObserver::commands_stepped(std::uint64_t, std::span<const PlayerCommand>) {}
+void ClientObserver::command_refused(std::uint64_t) {}
 void ClientObserver::server_silent(std::int64_t) {}
 void ClientObserver::desync_reported(const DesyncReport&) {}
 void ClientObserver::match_finished(FinishReason, std::uint64_t) {}

@@ -13,6 +13,7 @@
 #include "net/session/client/own_inputs.h"
 #include "net/session/client/server_connection.h"
 #include "net/session/client/tick_buffer.h"
+#include "net/session/command_buffer.h"
 #include "net/session/lead_control.h"
 #include "net/session/playout_clock.h"
 #include "net/session/tick_ring.h"
@@ -28,8 +29,8 @@ struct ClientStatus {
   Refusal refusal;
   std::int64_t now_us = 0;
   bool paused = false;
-  bool over = false;          ///< the match is: nothing is kept back
-  SlotMask waiting = 0;       ///< bit n: the match waits for slot n
+  bool over = false;     ///< the match is: nothing is kept back
+  SlotMask waiting = 0;  ///< bit n: the match waits for slot n
 
   /// Neither finished nor refused nor failed.
   [[nodiscard]] bool active() const { return state < ClientState::finished; }
@@ -84,12 +85,16 @@ struct ClientData {
   ClientGame game;
   ClientProgress progress;
   TickBuffer ticks;
+  TickCommands commands;  ///< of ticks that come next
   OwnInputs inputs;
   PlayoutClock playout;
   LeadControl lead;
   std::array<PlayerName, k_max_players> names;  ///< by slot, as far as the server told them
   ClientStats stats;                            ///< without those that current_stats adds
 };
+
+/// The record of `tick` is here, and so are the tick's commands.
+[[nodiscard]] bool is_complete(const ClientData& data, std::uint64_t tick);
 
 /// Notes the hashes of parts of the simulation's state, if they are due. Called after every step.
 void note_parts(ClientData& data);

@@ -12,6 +12,7 @@ void MatchEntry::begin(std::uint64_t ticks) {
   data_.status.state = ClientState::running;
   data_.progress.stepped = ticks;
   data_.ticks.restart(ticks, now_us);
+  data_.commands.clear();
   data_.progress.hashes.restart(ticks);
   data_.progress.hashes_acknowledged = ticks;
   sender_.restart(ticks);

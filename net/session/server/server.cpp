@@ -87,6 +87,9 @@ void Server::pause() {
 void Server::resume() {
   impl_->set_paused(false);
 }
+Status Server::send_command(ByteView bytes) {
+  return impl_->commands.give(bytes);
+}
 void Server::stop() {
   impl_->stop();
 }
@@ -109,13 +112,15 @@ Server::Impl::Impl(const ServerConfig& config, const ServerParts& parts)
       states(data, dumps, cases),
       entry(data, states, departures),
       sender(data),
+      command_sender(data),
       spectators(data, {states, entry, sender, departures}),
       admission(data, departures, entry, spectators),
       response(data, {dumps, cases, states, entry, departures, end}),
       comparison(data, cases, response),
       inputs(data),
+      commands(data),
       laggards(data, states, departures),
-      confirmer(data, {cases, states, inputs, laggards, end}) {}
+      confirmer(data, {cases, states, inputs, commands, laggards, end}) {}
 
 void Server::Impl::update(std::int64_t now_us) {
   MatchStatus& match = data.match;
@@ -137,6 +142,7 @@ void Server::Impl::update(std::int64_t now_us) {
   if (match.state == ServerState::finishing) end.try_finish();
   if (match.state == ServerState::closing) departures.close_all();
   sender.send_to_players();
+  command_sender.send();
   spectators.serve();
   data.parts.transport->flush();
 }
@@ -201,6 +207,8 @@ bool Server::Impl::dispatch(Peer& peer, ByteView packet) {
       return peer.is_admitted() && entry.on_snapshot_taken(peer, packet);
     case MessageType::parts:
       return peer.stage == Stage::seated && comparison.on_parts(peer, packet);
+    case MessageType::command:
+      return peer.stage == Stage::seated && commands.on_command(peer, packet);
     case MessageType::ask:
       return peer.stage == Stage::seated && on_ask(peer, packet);
     case MessageType::bye:
@@ -239,6 +247,7 @@ bool Server::Impl::on_bye(Peer& peer, ByteView packet) {
 
 void ServerObserver::tick_confirmed(std::uint64_t, std::span<const PlayerInput>,
                                     std::optional<std::uint64_t>) {}
+void ServerObserver::commands_confirmed(std::uint64_t, std::span<const PlayerCommand>) {}
 void ServerObserver::hash_agreed(std::uint64_t, std::uint64_t) {}
 void ServerObserver::player_joined(std::uint8_t, std::string_view) {}
 void ServerObserver::player_left(std::uint8_t, LeaveReason) {}

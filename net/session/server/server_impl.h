@@ -8,6 +8,7 @@
 
 #include "net/session/server/comparison/desync_response.h"
 #include "net/session/server/comparison/state_comparison.h"
+#include "net/session/server/data/command_sender.h"
 #include "net/session/server/data/server_data.h"
 #include "net/session/server/data/tick_sender.h"
 #include "net/session/server/desync/desync_cases.h"
@@ -18,6 +19,7 @@
 #include "net/session/server/entry/spectators.h"
 #include "net/session/server/leaving/departures.h"
 #include "net/session/server/leaving/match_end.h"
+#include "net/session/server/ticks/command_intake.h"
 #include "net/session/server/ticks/input_intake.h"
 #include "net/session/server/ticks/laggards.h"
 #include "net/session/server/ticks/tick_confirmer.h"
@@ -44,6 +46,7 @@ struct Server::Impl {
   EntryStates states;
   PlayerEntry entry;
   TickSender sender;
+  CommandSender command_sender;
   Spectators spectators;
   Admission admission;
 
@@ -53,6 +56,7 @@ struct Server::Impl {
 
   // Ticks.
   InputIntake inputs;
+  CommandIntake commands;
   Laggards laggards;
   TickConfirmer confirmer;
 

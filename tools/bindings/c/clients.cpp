@@ -110,6 +110,13 @@ struct ClientBox final : net::ClientObserver, net::InputSource, net::InputPredic
       status = recorder.keyframe(*client->simulation());
     if (status != Status::ok) log.reset();
   }
+  void commands_stepped(std::uint64_t tick, std::span<const PlayerCommand> commands) override {
+    events.add_commands(tick, commands);
+    if (log != nullptr && log->recorder->record_commands(commands) != Status::ok) log.reset();
+  }
+  void command_refused(std::uint64_t number) override {
+    at_tick(LKS_SESSION_COMMAND_REFUSED, 0, 0, static_cast<std::int64_t>(number));
+  }
   void server_silent(std::int64_t silent_us) override {
     at_tick(LKS_SESSION_SILENT, 0, 0, silent_us);
   }
@@ -265,6 +272,21 @@ lks_status lks_client_events(const lks_client* client, lks_session_event* out, s
 lks_status lks_client_event_text(const lks_client* client, size_t index, char* out,
                                  size_t capacity) {
   return call([&] { read(client).events.give_text(index, out, capacity); });
+}
+
+lks_status lks_client_event_bytes(const lks_client* client, size_t index, void* out,
+                                  size_t capacity, size_t* count) {
+  return call([&] { read(client).events.give_command(index, out, capacity, count); });
+}
+
+lks_status lks_client_send_command(lks_client* client, const void* bytes, size_t count,
+                                   uint64_t* number) {
+  return call([&] {
+    const ByteView command = bytes_of(bytes, count, "bytes");
+    const Result<std::uint64_t> sent = write(client).client->send_command(command);
+    if (!sent) throw failure(sent.status());
+    if (number != nullptr) *number = sent.value();
+  });
 }
 
 lks_status lks_client_get(const lks_client* client, lks_client_view* view) {

@@ -35,6 +35,9 @@ lks_server_def raw_def(const net::ServerConfig& config) {
   raw.rejoin_seed = config.rejoin_seed;
   raw.drop_us = config.timeouts.drop_us;
   raw.rejoin_us = config.timeouts.rejoin_us;
+  raw.command_bytes_max = config.commands.max_bytes;
+  raw.commands_per_second = config.commands.per_second;
+  raw.command_bytes_per_second = config.commands.bytes_per_second;
   return raw;
 }
 
@@ -60,6 +63,7 @@ net::ServerConfig config_of(const lks_server_def& raw) {
   config.rejoin_seed = raw.rejoin_seed;
   config.timeouts.drop_us = timeout_of(raw.drop_us, "def.drop_us");
   config.timeouts.rejoin_us = timeout_of(raw.rejoin_us, "def.rejoin_us");
+  config.commands = {raw.command_bytes_max, raw.commands_per_second, raw.command_bytes_per_second};
   return config;
 }
 
@@ -103,6 +107,10 @@ struct lks_server final : net::ServerObserver {
     if (records()) note(log->recorder->record_tick(tick, inputs, event.hash));
     if (records() && log->recorder->keyframe_due())
       note(log->recorder->keyframe(*match->simulation));
+  }
+  void commands_confirmed(std::uint64_t tick, std::span<const PlayerCommand> commands) override {
+    events.add_commands(tick, commands);
+    if (records()) note(log->recorder->record_commands(commands));
   }
   void player_joined(std::uint8_t slot, std::string_view name) override {
     lks_session_event event = event_of(LKS_SESSION_JOINED);
@@ -199,6 +207,8 @@ lks_session_stats raw_of(const net::PlayerStats& stats) {
   lks_session_stats raw = traffic_of(stats);
   raw.hashes_compared = stats.hashes_compared;
   raw.hashes_equal = stats.hashes_equal;
+  raw.commands_taken = stats.commands_taken;
+  raw.commands_refused = stats.commands_refused;
   return raw;
 }
 
@@ -251,6 +261,19 @@ lks_status lks_server_events(const lks_server* server, lks_session_event* out, s
 lks_status lks_server_event_text(const lks_server* server, size_t index, char* out,
                                  size_t capacity) {
   return call([&] { handle(server).events.give_text(index, out, capacity); });
+}
+
+lks_status lks_server_event_bytes(const lks_server* server, size_t index, void* out,
+                                  size_t capacity, size_t* count) {
+  return call([&] { handle(server).events.give_command(index, out, capacity, count); });
+}
+
+lks_status lks_server_send_command(lks_server* server, const void* bytes, size_t count) {
+  return call([&] {
+    const ByteView command = bytes_of(bytes, count, "bytes");
+    const Status status = running(server).send_command(command);
+    if (status != Status::ok) throw failure(status);
+  });
 }
 
 lks_status lks_server_record(lks_server* server, lks_recorder* recorder) {

@@ -106,6 +106,17 @@ struct MatchHost::Impl final : net::ServerObserver {
     summary.final_hash = hash.value_or(0);
     log.record(*match.simulation, tick, inputs, summary.final_hash);
   }
+  void commands_confirmed(std::uint64_t tick, std::span<const PlayerCommand> commands) override {
+    log.commands(commands);
+    if (match.game->chat_text == nullptr) return;
+    for (const PlayerCommand& command : commands) {
+      const std::optional<std::string> text = match.game->chat_text(command.bytes);
+      if (text) say({"chat", speaker(command.slot) + ": " + *text, command.slot, tick});
+    }
+  }
+  [[nodiscard]] std::string speaker(std::uint8_t slot) const {
+    return slot == k_server_slot ? "server" : player(slot);
+  }
   void player_joined(std::uint8_t slot, std::string_view name) override {
     say({"player_joined", fmt::format("player {} joined: {}", slot, name), slot});
     log.event(replay::EventKind::join, slot, {});

@@ -39,7 +39,8 @@ const KINDS = {
   [c.LKS_SESSION_DESYNC]: "desync", [c.LKS_SESSION_SILENT]: "silent", [c.LKS_SESSION_JOINED]: "joined",
   [c.LKS_SESSION_PLAYER_ACTIVE]: "player active", [c.LKS_SESSION_STATE_LOADED]: "state loaded",
   [c.LKS_SESSION_PAUSED]: "paused", [c.LKS_SESSION_INPUT_REPLACED]: "input replaced",
-  [c.LKS_SESSION_NAMED]: "named", [c.LKS_SESSION_PREDICTED]: "predicted", [c.LKS_SESSION_ROLLED_BACK]: "rolled back",
+  [c.LKS_SESSION_NAMED]: "named", [c.LKS_SESSION_COMMAND]: "command",
+  [c.LKS_SESSION_COMMAND_REFUSED]: "command refused", [c.LKS_SESSION_PREDICTED]: "predicted", [c.LKS_SESSION_ROLLED_BACK]: "rolled back",
 } as const;
 
 /** Fields that the kind does not use are 0 or empty; see `lockstone_c/sessions.h`. */
@@ -52,6 +53,8 @@ export interface SessionEvent {
   otherHash: string;
   value: number;
   reason: number;
+  /** Of `command`. */
+  bytes: Uint8Array;
   /** For people: of `desync` the tick, stage, body and field; of `named` the name. */
   text: string;
 }
@@ -73,6 +76,7 @@ export interface ClientStats {
 const event = c.lks_session_event;
 const TEXT_BYTES = 512;
 const NAME_BYTES = 32;
+const NO_BYTES = new Uint8Array(0);
 const FIRST_PAUSE_MS = 250;
 const LONGEST_PAUSE_MS = 4000;
 const CALLS_OF_STRANGERS = 3;
@@ -173,6 +177,20 @@ export class Client {
     if (bytes.length > 64) throw new RangeError("an input has at most 64 bytes");
     heap.u8.set(bytes, heap.input);
     heap.check(heap.f.lks_client_set_input(this.address, heap.input, bytes.length));
+  }
+
+  /**
+   * Gives a command, 1 … 65,536 bytes: chat, a purchase. It comes back to everybody at a tick, as an event `command`.
+   * Returns its number, which an event `command refused` names.
+   */
+  sendCommand(bytes: Uint8Array): number {
+    const { heap } = this;
+    const room = heap.allocate(Math.max(bytes.length, 1));
+    heap.u8.set(bytes, room);
+    const status = heap.f.lks_client_send_command(this.address, room, bytes.length, heap.output);
+    heap.f.free(room);
+    heap.check(status);
+    return Number(heap.getId(heap.output));
   }
 
   /** The input that the bot of `lockstone join` would press now, in the arena; null while there is no match. */
@@ -343,6 +361,15 @@ export class Client {
     return this.readEvents();
   }
 
+  private commandAt(index: number, size: number): Uint8Array {
+    const { heap } = this;
+    const room = heap.allocate(size);
+    heap.check(heap.f.lks_client_event_bytes(this.address, index, room, size, heap.output));
+    const bytes = heap.u8.slice(room, room + size);
+    heap.f.free(room);
+    return bytes;
+  }
+
   private eventAt(index: number): SessionEvent {
     const { heap } = this;
     const at = this.events.room + index * event.$bytes;
@@ -353,10 +380,12 @@ export class Client {
       heap.check(heap.f.lks_client_event_text(this.address, index, heap.output, TEXT_BYTES));
       text = heap.text(heap.output);
     }
+    const value = Number(heap.i64[(at + event.value) >>> 3]!);
+    const bytes = number === c.LKS_SESSION_COMMAND ? this.commandAt(index, value) : NO_BYTES;
     return {
-      kind, text, slot: heap.getWord(at + event.slot), tick: Number(heap.getId(at + event.tick)),
+      kind, text, bytes, slot: heap.getWord(at + event.slot), tick: Number(heap.getId(at + event.tick)),
       hash: hex(heap.getId(at + event.hash)), otherHash: hex(heap.getId(at + event.other_hash)),
-      value: Number(heap.i64[(at + event.value) >>> 3]!), reason: heap.getWord(at + event.reason),
+      value, reason: heap.getWord(at + event.reason),
     };
   }
 }

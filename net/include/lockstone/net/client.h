@@ -95,6 +95,10 @@ class ClientObserver {
   virtual void pause_changed(bool paused);
   /// The player of `slot` has this name: told of all players, also of this one.
   virtual void player_named(std::uint8_t slot, std::string_view name);
+  /// The commands of a tick that is about to be told as stepped, where it has any.
+  virtual void commands_stepped(std::uint64_t tick, std::span<const PlayerCommand> commands);
+  /// The server did not take a command: too many came, or it is too long for this match.
+  virtual void command_refused(std::uint64_t number);
   /// The server replaced this player's input for a tick: it came too late.
   virtual void input_replaced(std::uint64_t tick);
   /// Rollback: a tick was stepped on guesses. It may be stepped again, then told of again.
@@ -149,6 +153,12 @@ class Client {
 
   /// Opens the same seat again, also for another process; 0 before being seated.
   [[nodiscard]] std::uint64_t rejoin_key() const;
+
+  /// Gives a command, 1 … k_max_command_bytes bytes, which are copied. The server binds it to a
+  /// tick; everybody's simulation gets it there. Returns its number. invalid_argument for no bytes
+  /// or too many, or of a spectator; capacity_exhausted while too many are on their way; not_found
+  /// before being seated.
+  [[nodiscard]] Result<std::uint64_t> send_command(ByteView bytes);
 
   /// Asks the server's owner for something.
   void ask(AskKind kind, std::uint8_t topic = 0, std::uint8_t choice = 0);

@@ -33,7 +33,7 @@ enum class SetupError : std::uint8_t {
   match_config_too_long,
   player_count_out_of_range,
   input_bytes_out_of_range,  ///< also: above k_max_tick_input_bytes for all players together
-  tick_rate_out_of_range,  ///< 1 … 1000
+  tick_rate_out_of_range,    ///< 1 … 1000
   input_delay_out_of_range,
   history_out_of_range,
   timeouts_out_of_range,
@@ -99,7 +99,9 @@ struct PlayerStats {
   std::uint64_t malformed_packets = 0;
   std::int32_t margin_quarters = 0;  ///< how early the newest inputs came, quarter ticks
   std::uint64_t entries = 0;         ///< how often it came into the running match
-  std::uint64_t resends = 0;         ///< requests for ticks that lacked between others
+  std::uint64_t commands_taken = 0;
+  std::uint64_t commands_refused = 0;  ///< too many, or too long
+  std::uint64_t resends = 0;           ///< requests for ticks that lacked between others
 };
 
 /// Traffic and progress of a client.

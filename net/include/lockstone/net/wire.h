@@ -58,6 +58,9 @@ enum class MessageType : std::uint8_t {
   paused = 19,
   parts = 20,
   named = 21,
+  command = 22,
+  tick_command = 23,
+  command_result = 24,
 };
 [[nodiscard]] std::string_view to_string(MessageType type);
 
@@ -122,7 +125,8 @@ struct Welcome {
   Pacing pacing = Pacing::real_time;
   std::uint64_t tick_count = 0;  ///< 0: until stopped
   Entry entry = Entry::lobby;
-  std::uint64_t rejoin_key = 0;  ///< opens the same seat again
+  std::uint64_t rejoin_key = 0;      ///< opens the same seat again
+  std::uint64_t commands_taken = 0;  ///< the seat's commands that came whole, or were refused
 };
 
 /// Server: the client does not play. `here` is the server's value, `there` the client's.
@@ -144,14 +148,19 @@ struct TickShape {
   std::uint8_t input_bytes = 0;
 
   [[nodiscard]] std::size_t origin_bytes() const { return (player_count + std::size_t{3}) / 4; }
-  /// Two bits of origin a slot, then every slot's input.
+  /// Two bits of origin a slot, every slot's input, and the number of commands.
   [[nodiscard]] std::size_t record_bytes() const {
-    return origin_bytes() + std::size_t{player_count} * input_bytes;
+    return origin_bytes() + std::size_t{player_count} * input_bytes + 1;
   }
 };
 /// So that the largest tick fits into one datagram.
 inline constexpr std::size_t k_max_tick_input_bytes = 1024;  ///< of all players together
-inline constexpr std::size_t k_max_record_bytes = (k_max_players + 3) / 4 + k_max_tick_input_bytes;
+inline constexpr std::size_t k_max_record_bytes =
+    (k_max_players + 3) / 4 + k_max_tick_input_bytes + 1;
+
+/// The commands of one tick.
+inline constexpr std::size_t k_max_tick_commands = 255;
+inline constexpr std::size_t k_max_tick_command_bytes = 256 * 1024;
 
 /// No inputs came since the last time that a margin was told.
 inline constexpr std::int8_t k_no_margin = -128;
@@ -265,6 +274,28 @@ struct Named {
   PlayerName name;
 };
 
+/// Client: a piece of a command.
+struct CommandPiece {
+  std::uint32_t total_bytes = 0;  ///< 1 … k_max_command_bytes
+  std::uint32_t offset_bytes = 0;
+  ByteView chunk;  ///< 1 … k_max_chunk_bytes
+};
+
+/// Server: a piece of a command that belongs to a tick.
+struct TickCommand {
+  std::uint64_t tick = 0;
+  std::uint8_t slot = 0;  ///< of a player, or k_server_slot
+  std::uint32_t total_bytes = 0;
+  std::uint32_t offset_bytes = 0;
+  ByteView chunk;
+};
+
+/// Server: this client's command came whole, or is refused.
+struct CommandResult {
+  std::uint64_t number = 0;  ///< among all commands of the seat, from 0 on
+  bool taken = false;
+};
+
 /// Either: the last message of a connection.
 struct Bye {
   LeaveReason reason = LeaveReason::left;
@@ -293,6 +324,9 @@ struct Bye {
 [[nodiscard]] std::size_t encode(const Paused& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Parts& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Named& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const CommandPiece& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const TickCommand& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const CommandResult& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Bye& message, std::span<std::byte> out);
 
 [[nodiscard]] Status decode(ByteView packet, Hello& message);
@@ -315,6 +349,9 @@ struct Bye {
 [[nodiscard]] Status decode(ByteView packet, Paused& message);
 [[nodiscard]] Status decode(ByteView packet, Parts& message);
 [[nodiscard]] Status decode(ByteView packet, Named& message);
+[[nodiscard]] Status decode(ByteView packet, CommandPiece& message);
+[[nodiscard]] Status decode(ByteView packet, TickCommand& message);
+[[nodiscard]] Status decode(ByteView packet, CommandResult& message);
 [[nodiscard]] Status decode(ByteView packet, Bye& message);
 
 /// Header bytes of Inputs (without hashes) and Ticks: the rest of a datagram holds the records.

@@ -106,7 +106,8 @@ bool DesyncResponse::server_is_wrong(const Mismatch& mismatch) {
   const std::size_t size = simulation.save(SnapshotKind::native, now);
   bool wrong = false;
   if (simulation.load(SnapshotKind::canonical, before) == Status::ok) {
-    simulation.step(RecordInputs(record, data_.shape).view());
+    step_tick(simulation, RecordInputs(record, data_.shape).view(),
+              data_.commands.of(mismatch.tick));
     wrong = simulation.hash() == mismatch.hash_there;
   }
   LKS_CHECK(simulation.load(SnapshotKind::native, ByteView(now).first(size)) == Status::ok);

@@ -76,6 +76,9 @@ struct ServerData {
   TickRing records;    ///< inputs of the last confirmed ticks
   TickRing snapshots;  ///< canonical states after the last ticks, where the server simulates
 
+  TickCommands commands;       ///< of the last confirmed ticks
+  CommandBuffer own_commands;  ///< the server's, which wait for their tick
+
   // Those who take part.
   Peers peers;
   Roster roster;

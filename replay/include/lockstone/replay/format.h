@@ -31,6 +31,8 @@ inline constexpr std::size_t k_max_keyframe_bytes = 64U << 20;  ///< one canonic
 /// A compressed payload is at most this many times as long as its stored bytes, so that a reader
 /// needs memory and time in proportion to the file.
 inline constexpr std::size_t k_max_compression_ratio = 32;
+inline constexpr std::size_t k_max_command_chunk_bytes = 1U << 20;
+inline constexpr std::size_t k_max_tick_commands = 255;
 inline constexpr std::uint64_t k_max_start_tick = std::uint64_t{1} << 62;
 
 /// Bytes of the frame in front of every chunk's payload.
@@ -50,6 +52,7 @@ enum class ChunkType : std::uint8_t {
   index = 7,      ///< where the keyframes are; can be found again without it
   end = 8,        ///< the recorder finished in order
   signature = 9,  ///< an Ed25519 signature over all that stands before it
+  command = 10,   ///< player commands of ticks of the INPUT chunk after it
 };
 
 /// "INPUT", "HASH", …; "chunk" for a type that this build does not know.

@@ -72,6 +72,16 @@ LKS_API lks_status lks_client_events(const lks_client* client, lks_session_event
 LKS_API lks_status lks_client_event_text(const lks_client* client, size_t index, char* out,
                                          size_t capacity);
 
+/* The bytes of a command (LKS_SESSION_COMMAND). `count` is their number. */
+LKS_API lks_status lks_client_event_bytes(const lks_client* client, size_t index, void* out,
+                                          size_t capacity, size_t* count);
+
+/* Gives a command: 1 … 65536 bytes, which are copied. The server binds it to a tick, at which
+ * everybody's simulation gets it. `number` (may be null) is named where the server refuses it.
+ * LKS_CAPACITY_EXHAUSTED: too many are on their way; LKS_NOT_FOUND: not seated. */
+LKS_API lks_status lks_client_send_command(lks_client* client, const void* bytes, size_t count,
+                                           uint64_t* number);
+
 typedef struct lks_client_view {
   uint32_t size;
   uint32_t state;           /* LKS_CLIENT_… */

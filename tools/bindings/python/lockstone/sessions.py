@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_char, c_size_t, c_uint32, c_void_p, memmove
+from ctypes import byref, c_char, c_size_t, c_uint32, c_uint64, c_void_p, memmove
 from typing import Any, Callable, List, NamedTuple, Optional, Tuple
 
 from . import _declarations as c
@@ -26,6 +26,7 @@ class SessionEvent(NamedTuple):
     value: int
     reason: int
     text: str
+    data: bytes  # of LKS_SESSION_COMMAND
 
 
 def _settings(def_: Any, settings: dict) -> Any:
@@ -118,12 +119,20 @@ def _read_events(prefix: str, handle: c_void_p) -> List[SessionEvent]:
             room = count.value
     events = []
     for index, event in enumerate(raw[:count.value]):
-        text.value = b""
-        if event.kind != c.LKS_SESSION_TICK:
+        text.value, data = b"", b""
+        if event.kind == c.LKS_SESSION_COMMAND:
+            data = _command(prefix, handle, index, event.value)
+        elif event.kind != c.LKS_SESSION_TICK:
             text_of(handle, index, text, len(text))
         events.append(SessionEvent(event.kind, event.slot, event.tick, event.hash, event.value, event.reason,
-                                   text.value.decode(errors="replace")))
+                                   text.value.decode(errors="replace"), data))
     return events
+
+
+def _command(prefix: str, handle: c_void_p, index: int, size: int) -> bytes:
+    data, count = (c_char * size)(), c_size_t()
+    getattr(lib, f"lks_{prefix}_event_bytes")(handle, index, data, size, byref(count))
+    return data.raw
 
 
 def ticks_of(events: List[SessionEvent]) -> List[Tuple[int, int]]:
@@ -153,6 +162,10 @@ class Server:
         """Does all that is due, and returns its events; call it at least once a tick."""
         lib.lks_server_update(self.handle, now)
         return _read_events("server", self.handle)
+
+    def send_command(self, data: bytes) -> None:
+        """A command of the server's own."""
+        lib.lks_server_send_command(self.handle, data, len(data))
 
     def record(self, recorder: Recorder) -> None:
         """From here on each tick is written to this log."""
@@ -201,6 +214,12 @@ class Client:
         """Does all that is due, and returns its events; call it at least once a tick."""
         lib.lks_client_update(self.handle, now)
         return _read_events("client", self.handle)
+
+    def send_command(self, data: bytes) -> int:
+        """Gives a command, 1 … 65536 bytes; it comes back to everybody at a tick. Returns its number."""
+        number = c_uint64()
+        lib.lks_client_send_command(self.handle, data, len(data), byref(number))
+        return number.value
 
     def set_input(self, data: bytes) -> None:
         lib.lks_client_set_input(self.handle, data, len(data))

@@ -52,8 +52,11 @@ Status copy_item(replay::LogItem item, const replay::LogReader& reader,
   Status status = Status::ok;
   const std::uint64_t first = item == replay::LogItem::skipped ? 0 : reader.chunk().first_tick;
   if (item == replay::LogItem::hashes) {
-    for (std::size_t i = 0; i < reader.hashes().size() && status == Status::ok; ++i)
+    for (std::size_t i = 0; i < reader.hashes().size() && status == Status::ok; ++i) {
+      status = recorder.record_commands(reader.tick_commands(i));
+      if (status != Status::ok) return status;
       status = recorder.record_tick(first + i, reader.tick_inputs(i), reader.hashes()[i]);
+    }
   }
   if (item == replay::LogItem::keyframe) {
     status = recorder.keyframe(first, reader.keyframe_hash(), reader.snapshot());

@@ -144,6 +144,10 @@ typedef struct lockstone_game_table {
    * client that predicts calls them. */
   void (*keep_history)(void* match, uint32_t ticks);
   void (*forget_history)(void* match);
+
+  /* Simulation::command: a command of the next tick, right before its step. `slot` is a player's,
+   * or 253: the server's own. `size` is 1 ... 65536. Any bytes are legal. */
+  void (*command)(void* match, uint32_t slot, const uint8_t* bytes, size_t size);
 } lockstone_game_table;
 
 /* The one symbol of the library. */

@@ -262,6 +262,14 @@ namespace Lockstone
             }
         }
 
+        /// <summary>Gives a command, 1 … 65536 bytes; it comes back to everybody at a tick. Returns its number.</summary>
+        public ulong SendCommand(ReadOnlySpan<byte> bytes)
+        {
+            ulong number;
+            fixed (byte* p = bytes) Call.Check(Native.lks_client_send_command(Pointer, p, (UIntPtr)bytes.Length, &number));
+            return number;
+        }
+
         /// <summary>The name that a slot's player gave; kept after it left.</summary>
         public string PlayerName(int slot)
         {

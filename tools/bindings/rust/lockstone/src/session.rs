@@ -198,6 +198,14 @@ impl<G: Game> Client<G> {
     pub fn set_input(&mut self, input: &[u8]) -> Result<()> {
         check(unsafe { sys::lks_client_set_input(self.handle, input.as_ptr().cast(), input.len()) })
     }
+    /// Gives a command, 1 … 65536 bytes; it comes back to everybody at a tick. Returns its number.
+    pub fn send_command(&mut self, bytes: &[u8]) -> Result<u64> {
+        let mut number = 0;
+        check(unsafe {
+            sys::lks_client_send_command(self.handle, bytes.as_ptr().cast(), bytes.len(), &mut number)
+        })?;
+        Ok(number)
+    }
     /// Asks for the input of each tick, in order and once each.
     pub fn on_sample(&mut self, sampler: impl FnMut(u64, &mut [u8]) + 'static) -> Result<()> {
         let mut sampler: Box<Sampler> = Box::new(Box::new(sampler));
