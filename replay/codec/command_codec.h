@@ -17,7 +17,7 @@ namespace lockstone::replay {
 /// Bytes of a record without the command.
 inline constexpr std::size_t k_command_fixed_bytes = 13;
 
-/// Whether a log of so many players may hold the command.
+/// Whether a log of this many players may hold the command.
 [[nodiscard]] bool is_command(const PlayerCommand& command, std::size_t player_count);
 
 void encode_command(ByteWriter& writer, std::uint64_t tick, const PlayerCommand& command);

@@ -6,12 +6,12 @@
 #include <lockstone/replay/recorder.h>
 
 #include "replay/chunks/chunk_writer.h"
-#include "replay/codec/command_codec.h"
 #include "replay/codec/compression.h"
 #include "replay/codec/header_codec.h"
 #include "replay/codec/index_codec.h"
 #include "replay/codec/input_codec.h"
 #include "replay/codec/record_codec.h"
+#include "replay/writing/command_chunk.h"
 
 namespace lockstone::replay {
 namespace {
@@ -24,6 +24,13 @@ constexpr std::size_t k_keyframe_prefix_bytes = k_chunk_header_bytes + sizeof(st
 bool in_range(const SimulationInfo& info) {
   return info.tick_rate > 0 && info.player_count > 0 && info.player_count <= k_max_players &&
          info.input_bytes > 0 && info.input_bytes <= k_max_input_bytes;
+}
+
+bool fits(const SimulationInfo& info, std::span<const PlayerInput> inputs) {
+  return inputs.size() == info.player_count &&
+         std::all_of(inputs.begin(), inputs.end(), [&info](const PlayerInput& input) {
+           return input.bytes.size() == info.input_bytes && input.origin <= InputOrigin::absent;
+         });
 }
 
 std::uint32_t chunk_ticks(const RecorderOptions& options, const SimulationInfo& info) {
@@ -43,11 +50,7 @@ std::uint32_t keyframe_interval(const RecorderOptions& options, std::uint64_t ag
 // Everything that is written is composed here. `group` holds INPUT, HASH and EVENT chunks one after
 // the other, so that one append carries them; the inputs are coded straight into their place.
 struct Recorder::Buffers {
-  explicit Buffers(Sink& sink) : writer(sink) { next_commands.reserve(k_max_tick_commands); }
-
-  [[nodiscard]] std::span<std::byte> commands() const {
-    return {command_bytes.get(), k_chunk_header_bytes + k_max_command_chunk_bytes};
-  }
+  explicit Buffers(Sink& sink) : writer(sink) {}
 
   ChunkWriter writer;
   std::optional<Compressor> compressor;
@@ -56,13 +59,7 @@ struct Recorder::Buffers {
   std::vector<std::uint64_t> hashes;  // reserved for a chunk's ticks
   std::vector<std::byte> events;
   std::vector<std::byte> keyframe;
-  // A COMMAND chunk, and behind it the commands of the tick that is recorded next.
-  std::unique_ptr<std::byte[]> command_bytes{
-      new std::byte[k_chunk_header_bytes + k_max_command_chunk_bytes]};
-  std::size_t commands_end = k_chunk_header_bytes;
-  std::uint32_t command_count = 0;
-  std::size_t next_commands_end = k_chunk_header_bytes;
-  std::vector<PlayerCommand> next_commands;
+  CommandChunk commands;
   std::size_t event_bytes = 0;
   std::uint32_t event_count = 0;
   InputEncoder inputs;
@@ -138,64 +135,12 @@ Status Recorder::check_recording() const {
   return state_ == State::failed ? Status::io_error : Status::invalid_argument;
 }
 
-bool Recorder::fits(std::span<const PlayerInput> inputs) const {
-  return inputs.size() == info_.player_count &&
-         std::all_of(inputs.begin(), inputs.end(), [&](const PlayerInput& input) {
-           return input.bytes.size() == info_.input_bytes && input.origin <= InputOrigin::absent;
-         });
-}
-
 Status Recorder::record_commands(std::span<const PlayerCommand> commands) {
   Status status = check_recording();
   if (status != Status::ok || commands.empty()) return status;
-  Buffers& buffers = *buffers_;
-  std::size_t bytes = 0;
-  for (const PlayerCommand& command : commands) {
-    if (!is_command(command, info_.player_count)) return Status::invalid_argument;
-    bytes += k_command_fixed_bytes + command.bytes.size();
-  }
-  const bool too_many = buffers.next_commands.size() + commands.size() > k_max_tick_commands;
-  if (too_many || bytes > k_max_command_chunk_bytes) return Status::invalid_argument;
-  if (bytes > buffers.commands().size() - buffers.next_commands_end) status = flush();
-  if (status != Status::ok) return status;
-  if (bytes > buffers.commands().size() - buffers.next_commands_end) {
-    return Status::invalid_argument;
-  }
-  for (const PlayerCommand& command : commands) {
-    ByteWriter writer(buffers.commands().subspan(buffers.next_commands_end));
-    encode_command(writer, next_tick_, command);
-    buffers.next_commands_end += writer.size();
-    buffers.next_commands.push_back(
-        {command.slot, ByteView(writer.written()).last(command.bytes.size())});
-  }
-  return Status::ok;
-}
-
-// The tick that is recorded has the commands that wait.
-void Recorder::note_commands() {
-  buffers_->commands_end = buffers_->next_commands_end;
-  buffers_->command_count += static_cast<std::uint32_t>(buffers_->next_commands.size());
-  buffers_->next_commands.clear();
-}
-
-// The chunk, if it has any. Commands of the tick that is recorded next move to its beginning.
-Status Recorder::append_commands() {
-  Buffers& buffers = *buffers_;
-  if (buffers.command_count == 0) return Status::ok;
-  const std::uint64_t first_tick = next_tick_ - buffers.hashes.size();
-  const std::span<std::byte> chunk = buffers.commands().first(buffers.commands_end);
-  buffers.writer.seal(
-      {.type = ChunkType::command, .count = buffers.command_count, .first_tick = first_tick},
-      chunk);
-  const Status status = append(chunk);
-  const std::size_t moved = buffers.commands_end - k_chunk_header_bytes;
-  std::copy(chunk.end(), chunk.begin() + static_cast<std::ptrdiff_t>(buffers.next_commands_end),
-            chunk.begin() + k_chunk_header_bytes);
-  for (PlayerCommand& command : buffers.next_commands)
-    command.bytes = {command.bytes.data() - moved, command.bytes.size()};
-  buffers.next_commands_end -= moved;
-  buffers.commands_end = k_chunk_header_bytes;
-  buffers.command_count = 0;
+  if (!buffers_->commands.takes(commands, info_.player_count)) return Status::invalid_argument;
+  if (!buffers_->commands.has_room(commands)) status = flush();
+  if (status == Status::ok) buffers_->commands.add(next_tick_, commands);
   return status;
 }
 
@@ -204,11 +149,11 @@ Status Recorder::record_tick(std::uint64_t tick, std::span<const PlayerInput> in
   const Status status = check_recording();
   if (status != Status::ok) return status;
   const bool has_start = start_tick_ == 0 || totals_.keyframes > 0;
-  if (tick != next_tick_ || !has_start || !fits(inputs)) return Status::invalid_argument;
+  if (tick != next_tick_ || !has_start || !fits(info_, inputs)) return Status::invalid_argument;
   buffers_->inputs.add(inputs);
   buffers_->hashes.push_back(hash);
-  buffers_->transcript.add(tick, inputs, buffers_->next_commands);
-  note_commands();
+  buffers_->transcript.add(tick, inputs, buffers_->commands.next());
+  buffers_->commands.note_tick();
   ++next_tick_;
   ++totals_.ticks;
   totals_.final_hash = hash;
@@ -288,8 +233,12 @@ Status Recorder::event(std::uint64_t tick, EventKind kind, std::uint8_t slot,
 Status Recorder::flush() {
   const Status status = check_recording();
   if (status != Status::ok) return status;
-  const Status commands = append_commands();
-  if (commands != Status::ok) return commands;
+  if (!buffers_->commands.empty()) {
+    const std::uint64_t first_tick = next_tick_ - buffers_->hashes.size();
+    const Status appended = append(buffers_->commands.seal(buffers_->writer, first_tick));
+    if (appended != Status::ok) return appended;
+    buffers_->commands.restart();
+  }
   const std::size_t tick_bytes = buffers_->hashes.empty() ? 0 : seal_ticks();
   const std::size_t used_bytes = buffers_->event_count == 0 ? tick_bytes : seal_events(tick_bytes);
   if (used_bytes == 0) return Status::ok;

@@ -16,7 +16,7 @@ std::vector<std::byte> filled(std::size_t size, std::uint64_t seed) {
   return bytes;
 }
 
-TEST(CommandBuffer, KeepsWhatAQueueWouldKeep) {
+TEST(CommandBuffer, IsAQueueInARing) {
   struct Kept {
     std::uint64_t tick;
     std::vector<std::byte> bytes;

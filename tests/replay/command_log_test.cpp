@@ -186,7 +186,7 @@ TEST(CommandLog, DamagedChunksAreFound) {
   }
 }
 
-TEST(CommandCodec, RefusesWhatNoRecorderWrites) {
+TEST(CommandCodec, RefusesRecordsThatNoRecorderWrites) {
   std::array<std::byte, 64> room{};
   const std::array<std::byte, 4> bytes{};
   const auto decode = [&](std::uint64_t first, std::uint64_t second, std::uint8_t slot,

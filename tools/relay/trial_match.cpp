@@ -292,7 +292,7 @@ unsigned TrialMatch::entries_of(std::uint64_t player) const {
   const auto found = impl_->door->entries.find(player);
   return found == impl_->door->entries.end() ? 0 : found->second;
 }
-net::SlotMask TrialMatch::port() const {
+std::uint16_t TrialMatch::port() const {
   return impl_->enet->port();
 }
 const net::EnetCounters& TrialMatch::socket_counters() const {

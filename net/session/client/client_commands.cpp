@@ -5,7 +5,7 @@
 namespace lockstone::net {
 namespace {
 
-constexpr int k_pieces_per_update = 2;
+constexpr int k_command_pieces_per_update = 2;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ Result<std::uint64_t> ClientCommands::give(ByteView bytes) {
 }
 
 void ClientCommands::send_pieces() {
-  for (int i = 0; i < k_pieces_per_update && sending_ < own_.end(); ++i) {
+  for (int i = 0; i < k_command_pieces_per_update && sending_ < own_.end(); ++i) {
     const ByteView bytes = own_.bytes(sending_);
     const std::size_t size = std::min(k_max_chunk_bytes, bytes.size() - sent_);
     const CommandPiece piece{static_cast<std::uint32_t>(bytes.size()),

@@ -88,7 +88,7 @@ void Server::resume() {
   impl_->set_paused(false);
 }
 Status Server::send_command(ByteView bytes) {
-  return impl_->commands.give(bytes);
+  return impl_->taking.commands.give(bytes);
 }
 void Server::stop() {
   impl_->stop();
@@ -111,16 +111,14 @@ Server::Impl::Impl(const ServerConfig& config, const ServerParts& parts)
       departures(data, cases, end),
       states(data, dumps, cases),
       entry(data, states, departures),
-      sender(data),
-      command_sender(data),
-      spectators(data, {states, entry, sender, departures}),
+      sending(data),
+      spectators(data, {states, entry, sending.ticks, departures}),
       admission(data, departures, entry, spectators),
       response(data, {dumps, cases, states, entry, departures, end}),
       comparison(data, cases, response),
-      inputs(data),
-      commands(data),
+      taking(data),
       laggards(data, states, departures),
-      confirmer(data, {cases, states, inputs, commands, laggards, end}) {}
+      confirmer(data, {cases, states, taking.inputs, taking.commands, laggards, end}) {}
 
 void Server::Impl::update(std::int64_t now_us) {
   MatchStatus& match = data.match;
@@ -141,8 +139,8 @@ void Server::Impl::update(std::int64_t now_us) {
   response.advance();
   if (match.state == ServerState::finishing) end.try_finish();
   if (match.state == ServerState::closing) departures.close_all();
-  sender.send_to_players();
-  command_sender.send();
+  sending.ticks.send_to_players();
+  sending.commands.send();
   spectators.serve();
   data.parts.transport->flush();
 }
@@ -198,9 +196,9 @@ bool Server::Impl::dispatch(Peer& peer, ByteView packet) {
     case MessageType::answer:
       return peer.stage == Stage::offered && admission.on_answer(peer, packet);
     case MessageType::inputs:
-      return peer.is_admitted() && inputs.on_inputs(peer, packet);
+      return peer.is_admitted() && taking.inputs.on_inputs(peer, packet);
     case MessageType::resend:
-      return peer.is_admitted() && sender.on_resend(peer, packet);
+      return peer.is_admitted() && sending.ticks.on_resend(peer, packet);
     case MessageType::dump:
       return peer.stage == Stage::seated && on_dump(peer, packet);
     case MessageType::snapshot_taken:
@@ -208,7 +206,7 @@ bool Server::Impl::dispatch(Peer& peer, ByteView packet) {
     case MessageType::parts:
       return peer.stage == Stage::seated && comparison.on_parts(peer, packet);
     case MessageType::command:
-      return peer.stage == Stage::seated && commands.on_command(peer, packet);
+      return peer.stage == Stage::seated && taking.commands.on_command(peer, packet);
     case MessageType::ask:
       return peer.stage == Stage::seated && on_ask(peer, packet);
     case MessageType::bye:

@@ -28,6 +28,17 @@ namespace lockstone::net {
 
 /// An update receives, calls the parts in a fixed order, and sends.
 struct Server::Impl {
+  struct Sending {
+    explicit Sending(ServerData& data) : ticks(data), commands(data) {}
+    TickSender ticks;
+    CommandSender commands;
+  };
+  struct Taking {
+    explicit Taking(ServerData& data) : inputs(data), commands(data) {}
+    InputIntake inputs;
+    CommandIntake commands;
+  };
+
   Impl(const ServerConfig& config, const ServerParts& parts);
 
   void update(std::int64_t now_us);
@@ -45,8 +56,7 @@ struct Server::Impl {
   // Entering a match.
   EntryStates states;
   PlayerEntry entry;
-  TickSender sender;
-  CommandSender command_sender;
+  Sending sending;
   Spectators spectators;
   Admission admission;
 
@@ -55,8 +65,7 @@ struct Server::Impl {
   StateComparison comparison;
 
   // Ticks.
-  InputIntake inputs;
-  CommandIntake commands;
+  Taking taking;
   Laggards laggards;
   TickConfirmer confirmer;
 

@@ -28,7 +28,7 @@ class CommandIntake {
   [[nodiscard]] std::uint8_t bind_to_next_tick();
 
  private:
-  /// What a tick has so far.
+  /// The commands of a tick so far.
   struct Bound {
     std::size_t commands = 0;
     std::size_t bytes = 0;

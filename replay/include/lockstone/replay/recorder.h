@@ -117,13 +117,10 @@ class Recorder {
   struct Buffers;
 
   [[nodiscard]] Status check_recording() const;
-  [[nodiscard]] bool fits(std::span<const PlayerInput> inputs) const;
   void allocate(ByteView config);
   void start_chunk();
   Status write_beginning(const LogHeader& header, ByteView config);
   Status write_keyframe(std::uint64_t hash, std::size_t snapshot_bytes);
-  void note_commands();
-  Status append_commands();
   std::size_t seal_ticks();
   std::size_t seal_events(std::size_t used_bytes);
   Status append(ByteView bytes);
