@@ -71,6 +71,8 @@ class Node final : public net::ClientObserver, public net::InputSource {
                     std::uint64_t hash) override;
 
  private:
+  void talk();
+
   std::size_t index_;
   std::uint64_t seed_;
   std::uint8_t input_bytes_;
@@ -83,6 +85,7 @@ class Node final : public net::ClientObserver, public net::InputSource {
   std::unique_ptr<LyingTransport> lying_;
   std::unique_ptr<net::Client> client_;
   std::uint64_t ticks_ = 0;
+  std::uint64_t talked_ = 0;  ///< at this number of ticks
   std::uint32_t delay_ticks_ = 0;
   std::uint64_t rejoin_key_ = 0;  ///< survives the process, as in a file
   FormerLives before_;

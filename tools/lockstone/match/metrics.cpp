@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <lockstone/net/player_name.h>
+
 namespace lockstone::tool {
 namespace {
 
