@@ -266,7 +266,8 @@ namespace Lockstone
         public ulong SendCommand(ReadOnlySpan<byte> bytes)
         {
             ulong number;
-            fixed (byte* p = bytes) Call.Check(Native.lks_client_send_command(Pointer, p, (UIntPtr)bytes.Length, &number));
+            fixed (byte* p = &MemoryMarshal.GetReference(bytes))
+                Call.Check(Native.lks_client_send_command(Pointer, p, (UIntPtr)bytes.Length, &number));
             return number;
         }
 
