@@ -50,8 +50,8 @@ void Node::update(std::int64_t span_us) {
 // Now and then a command, a few of them long. Where it cannot be sent, it is not.
 void Node::talk() {
   constexpr std::uint64_t k_mean_ticks = 100;
-  if (std::exchange(talked_, ticks_) == ticks_) return;
-  std::uint64_t draw = hash64({}, seed_ * 64 + index_ + (ticks_ << 20));
+  if (std::exchange(ticks_.talked, ticks_.stepped) == ticks_.stepped) return;
+  std::uint64_t draw = hash64({}, seed_ * 64 + index_ + (ticks_.stepped << 20));
   if (draw % k_mean_ticks != 0) return;
   draw /= k_mean_ticks;
   std::vector<std::byte> bytes(1 + (draw % 16 == 0 ? draw % 20'000 : draw % 100));
@@ -78,7 +78,7 @@ void Node::sample(std::uint64_t tick, std::span<std::byte> out) {
 
 void Node::tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
                         std::uint64_t hash) {
-  ++ticks_;
+  ++ticks_.stepped;
   oracle_.stepped(index_, tick, inputs, hash);
   if (!oracle_.over() && tick + delay_ticks_ >= oracle_.ticks()) {
     oracle_.fail("tick " + std::to_string(tick) + ": a spectator saw it too early");
