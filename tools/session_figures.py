@@ -181,7 +181,7 @@ def late(lockstone, folder, minutes):
     time.sleep(60 * minutes)
     called = time.monotonic()
     match.join(None, "--slot", 2)
-    match.wait_for("player 2 plays from tick")
+    match.wait_for('player 2 "bot" plays from tick')
     announced = time.monotonic() - called
     time.sleep(5)
     match.players[2].terminate()

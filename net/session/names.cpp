@@ -29,10 +29,11 @@ std::string_view to_string(TransportEventKind kind) {
   return name_of(k_names, kind);
 }
 std::string_view to_string(MessageType type) {
-  constexpr std::array<std::string_view, 21> k_names{
-      "unknown", "hello",    "offer",          "answer",   "welcome",      "refuse", "start",
-      "inputs",  "ticks",    "resend",         "desync",   "dump request", "dump",   "finish",
-      "bye",     "snapshot", "snapshot taken", "activate", "ask",          "paused", "parts"};
+  constexpr std::array<std::string_view, 25> k_names{
+      "unknown", "hello",    "offer",          "answer",        "welcome",      "refuse", "start",
+      "inputs",  "ticks",    "resend",         "desync",        "dump request", "dump",   "finish",
+      "bye",     "snapshot", "snapshot taken", "activate",      "ask",          "paused", "parts",
+      "named",   "command",  "tick command",   "command result"};
   return name_of(k_names, type);
 }
 std::string_view to_string(Entry entry) {

@@ -9,10 +9,6 @@ namespace {
 constexpr std::size_t k_checks = 8;
 constexpr std::uint64_t k_patience_ticks = 4 * k_parts_interval_ticks;
 
-bool has_bit(std::uint16_t mask, std::size_t slot) {
-  return ((mask >> slot) & 1U) != 0;
-}
-
 std::size_t place_of(std::uint64_t ticks, std::size_t count) {
   return static_cast<std::size_t>(ticks / k_parts_interval_ticks % count);
 }
@@ -60,9 +56,9 @@ void PartsJudge::take(std::uint8_t slot, const Parts& parts) {
     check.reported = 0;
     check.decided = false;
   }
-  if (check.decided || has_bit(check.reported, slot)) return;
+  if (check.decided || has_slot(check.reported, slot)) return;
   check.parts[slot] = parts;
-  check.reported = static_cast<std::uint16_t>(check.reported | 1U << slot);
+  check.reported |= slot_bit(slot);
 }
 
 void PartsJudge::compare(std::uint8_t slot, const Parts& theirs, std::uint8_t reference,
@@ -77,7 +73,7 @@ void PartsJudge::compare(std::uint8_t slot, const Parts& theirs, std::uint8_t re
       theirs.ticks, slot, reference, verdict, part, right.hashes[part], theirs.hashes[part]};
 }
 
-void PartsJudge::vote(std::uint16_t voters, std::uint64_t confirmed) {
+void PartsJudge::vote(SlotMask voters, std::uint64_t confirmed) {
   for (Check& check : checks_) {
     if (check.ticks == 0 || check.decided) continue;
     const bool all = (check.reported & voters) == voters;
@@ -85,23 +81,23 @@ void PartsJudge::vote(std::uint16_t voters, std::uint64_t confirmed) {
   }
 }
 
-unsigned PartsJudge::votes_for(const Check& check, std::uint16_t members, std::uint8_t slot) {
+unsigned PartsJudge::votes_for(const Check& check, SlotMask members, std::uint8_t slot) {
   unsigned votes = 0;
   for (std::size_t other = 0; other < k_max_players; ++other) {
-    const bool agrees = has_bit(members, other) && same(check.parts[other], check.parts[slot]);
+    const bool agrees = has_slot(members, other) && same(check.parts[other], check.parts[slot]);
     votes += agrees ? 1 : 0;
   }
   return votes;
 }
 
 // Ties go to the lowest slot, as a reference alone: without a majority nothing is decided.
-void PartsJudge::decide(Check& check, std::uint16_t voters) {
+void PartsJudge::decide(Check& check, SlotMask voters) {
   check.decided = true;
-  const auto members = static_cast<std::uint16_t>(check.reported & voters);
+  const SlotMask members = check.reported & voters;
   std::uint8_t speaker = k_no_slot;
   unsigned most = 0;
   for (std::uint8_t slot = 0; slot < k_max_players; ++slot) {
-    const unsigned votes = has_bit(members, slot) ? votes_for(check, members, slot) : 0;
+    const unsigned votes = has_slot(members, slot) ? votes_for(check, members, slot) : 0;
     if (votes <= most) continue;
     most = votes;
     speaker = slot;
@@ -109,7 +105,7 @@ void PartsJudge::decide(Check& check, std::uint16_t voters) {
   const auto all = static_cast<unsigned>(std::popcount(members));
   const Verdict verdict = 2 * most > all ? Verdict::minority : Verdict::undecided;
   for (std::uint8_t slot = 0; slot < k_max_players; ++slot) {
-    if (!has_bit(members, slot)) continue;
+    if (!has_slot(members, slot)) continue;
     compare(slot, check.parts[slot], speaker, check.parts[speaker], verdict);
   }
 }

@@ -41,7 +41,7 @@ class PartsJudge {
   /// Without own parts: decides the checks that all of `voters` have reported, and, after
   /// `confirmed` ticks, the checks that are so old that nobody is waited for any more. Bit n of
   /// `voters`: slot n.
-  void vote(std::uint16_t voters, std::uint64_t confirmed);
+  void vote(SlotMask voters, std::uint64_t confirmed);
 
   /// The first difference found in a player, until it is forgotten.
   [[nodiscard]] const std::optional<PartMismatch>& found(std::size_t slot) const {
@@ -56,14 +56,14 @@ class PartsJudge {
   /// The reports for one number of ticks.
   struct Check {
     std::uint64_t ticks = 0;
-    std::uint16_t reported = 0;  ///< bit n: slot n
+    SlotMask reported = 0;  ///< bit n: slot n
     bool decided = false;
     std::array<Parts, k_max_players> parts{};
   };
   void compare(std::uint8_t slot, const Parts& theirs, std::uint8_t reference, const Parts& right,
                Verdict verdict);
-  void decide(Check& check, std::uint16_t voters);
-  [[nodiscard]] static unsigned votes_for(const Check& check, std::uint16_t members,
+  void decide(Check& check, SlotMask voters);
+  [[nodiscard]] static unsigned votes_for(const Check& check, SlotMask members,
                                           std::uint8_t slot);
 
   bool has_own_;

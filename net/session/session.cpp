@@ -1,5 +1,6 @@
 #include <array>
 
+#include <lockstone/net/player_name.h>
 #include <lockstone/net/session.h>
 
 namespace lockstone::net {
@@ -47,9 +48,9 @@ std::string DesyncReport::to_line() const {
   // "player 2, player 0, score" would not say which of them has the other state.
   const bool about_players = difference.differs && difference.store == "player";
   const std::string at = "tick " + std::to_string(tick) + ", ";
-  if (about_players && difference.object == slot) return at + difference.to_line();
-  const std::string line =
-      at + (about_players ? "state of player " : "player ") + std::to_string(slot) + ", ";
+  const bool about_itself = about_players && difference.object == slot;
+  if (about_itself && name.empty()) return at + difference.to_line();
+  const std::string line = at + (about_players ? "state of " : "") + player_text(slot, name) + ", ";
   if (difference.differs) return line + difference.to_line();
   return line + (part.empty() ? "hash" : part) + ": " + lockstone::hexadecimal(hash_here) +
          " here, " + lockstone::hexadecimal(hash_there) + " there";

@@ -3,6 +3,7 @@
 
 #include <lockstone/net/session.h>
 #include <lockstone/net/transport.h>
+#include <lockstone/net/wire.h>
 
 namespace lockstone::net {
 
@@ -21,6 +22,8 @@ namespace lockstone::net {
   if (info.input_bytes < 1 || info.input_bytes > k_max_input_bytes) {
     return SetupError::input_bytes_out_of_range;
   }
+  const std::size_t tick_input_bytes = std::size_t{info.player_count} * info.input_bytes;
+  if (tick_input_bytes > k_max_tick_input_bytes) return SetupError::input_bytes_out_of_range;
   const bool rate_fits = info.tick_rate >= 1 && info.tick_rate <= 1000;
   return rate_fits ? SetupError::none : SetupError::tick_rate_out_of_range;
 }

@@ -8,6 +8,7 @@ namespace lockstone::net {
 namespace {
 
 constexpr std::byte k_changed{0x80};
+constexpr std::byte k_whole{0x81};
 constexpr std::size_t k_max_run = 128;
 
 std::size_t mask_bytes(std::size_t record_bytes) {
@@ -42,6 +43,7 @@ bool RecordWriter::add_equal() {
 
 bool RecordWriter::add_changed(ByteView record, std::size_t changed_count) {
   const std::size_t needed_bytes = 1 + mask_bytes(record_bytes_) + changed_count;
+  if (needed_bytes > 1 + record_bytes_) return add_whole(record);
   if (out_.size() - size_ < needed_bytes) return false;
   out_[size_++] = k_changed;
   const std::span<std::byte> mask = out_.subspan(size_, mask_bytes(record_bytes_));
@@ -57,15 +59,33 @@ bool RecordWriter::add_changed(ByteView record, std::size_t changed_count) {
   return true;
 }
 
+bool RecordWriter::add_whole(ByteView record) {
+  if (out_.size() - size_ < 1 + record_bytes_) return false;
+  out_[size_++] = k_whole;
+  std::copy(record.begin(), record.end(), out_.subspan(size_).begin());
+  std::copy(record.begin(), record.end(), last_.begin());
+  size_ += record_bytes_;
+  run_open_ = false;
+  return true;
+}
+
 bool RecordReader::next() {
   if (run_left_ == 0) {
     if (reader_.remaining() == 0) return false;
     const auto control = reader_.get<std::uint8_t>();
     if (std::byte{control} == k_changed) return read_changed();
+    if (std::byte{control} == k_whole) return read_whole();
     if (control >= k_max_run) return false;
     run_left_ = std::size_t{control} + 1;
   }
   --run_left_;
+  return true;
+}
+
+bool RecordReader::read_whole() {
+  const ByteView record = reader_.get_bytes(record_bytes_);
+  if (!reader_.ok() || std::equal(record.begin(), record.end(), last_.begin())) return false;
+  std::copy(record.begin(), record.end(), last_.begin());
   return true;
 }
 

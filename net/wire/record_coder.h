@@ -2,7 +2,8 @@
 //
 // The record before the first is all zero. A control byte 0x00 … 0x7f says that 1 … 128 records
 // equal their predecessor. 0x80 says that one record differs: a bit mask follows (byte i / 8, bit
-// i % 8, for record byte i), then the new values of the marked bytes. Other bytes are malformed.
+// i % 8, for record byte i), then the new values of the marked bytes. 0x81 says that one record
+// differs and follows as a whole. Other bytes are malformed.
 #pragma once
 
 #include <array>
@@ -27,6 +28,7 @@ class RecordWriter {
  private:
   bool add_equal();
   bool add_changed(ByteView record, std::size_t changed_count);
+  bool add_whole(ByteView record);
 
   std::span<std::byte> out_;
   std::size_t record_bytes_;
@@ -52,6 +54,7 @@ class RecordReader {
 
  private:
   bool read_changed();
+  bool read_whole();
 
   ByteReader reader_;
   std::size_t record_bytes_;

@@ -30,6 +30,14 @@ PlayerInput get_slot(ByteView record, TickShape shape, std::size_t slot) {
   return {record.subspan(at, shape.input_bytes), static_cast<InputOrigin>(origin)};
 }
 
+void set_command_count(std::span<std::byte> record, std::uint8_t count) {
+  record.back() = std::byte{count};
+}
+
+std::uint8_t command_count(ByteView record) {
+  return std::to_integer<std::uint8_t>(record.back());
+}
+
 bool valid_record(ByteView record, TickShape shape) {
   if (record.size() != shape.record_bytes()) return false;
   for (std::size_t slot = 0; slot < shape.player_count; ++slot) {

@@ -1,5 +1,6 @@
 // One confirmed tick as bytes: two bits of InputOrigin a slot (slot n in byte n / 4, bits 2(n % 4)
-// and up), then the slots' inputs. Also what a tick's hash and log are made of.
+// and up), the slots' inputs, and the number of the tick's commands, which come apart. Also what a
+// tick's hash and log are made of.
 #pragma once
 
 #include <array>
@@ -16,6 +17,10 @@ void set_slot(std::span<std::byte> record, TickShape shape, std::size_t slot, In
 
 /// Reads a slot's part of a valid record; the bytes point into it.
 [[nodiscard]] PlayerInput get_slot(ByteView record, TickShape shape, std::size_t slot);
+
+/// The number of the tick's commands.
+void set_command_count(std::span<std::byte> record, std::uint8_t count);
+[[nodiscard]] std::uint8_t command_count(ByteView record);
 
 /// Whether a record from outside is one that a server may have built: no stray bits, and zero
 /// bytes where the origin says so.

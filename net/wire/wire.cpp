@@ -40,7 +40,7 @@ Result<MessageType> message_type(ByteView packet) {
   if (packet.empty()) return Status::truncated;
   const auto type = std::to_integer<std::uint8_t>(packet[0]);
   if (type < static_cast<std::uint8_t>(MessageType::hello)) return Status::malformed;
-  if (type > static_cast<std::uint8_t>(MessageType::parts)) return Status::malformed;
+  if (type > static_cast<std::uint8_t>(MessageType::command_result)) return Status::malformed;
   return static_cast<MessageType>(type);
 }
 
@@ -63,7 +63,11 @@ Result<MessageType> message_type(ByteView packet) {
   X(Activate, activate)            \
   X(Ask, ask)                      \
   X(Paused, paused)                \
-  X(Parts, parts)
+  X(Parts, parts)                  \
+  X(Named, named)                  \
+  X(CommandPiece, command)         \
+  X(TickCommand, tick_command)     \
+  X(CommandResult, command_result)
 
 #define LKS_DEFINE_CODEC(Name, type)                                  \
   std::size_t encode(const Name& message, std::span<std::byte> out) { \

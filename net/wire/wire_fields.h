@@ -51,6 +51,7 @@ void fields(Wire& wire, Message& message, const Welcome&) {
   wire.tick(message.tick_count);
   wire.choice(message.entry, Entry::snapshot);
   wire.value(message.rejoin_key);
+  wire.value(message.commands_taken);
 }
 
 template <class Wire, class Message>
@@ -195,6 +196,40 @@ void fields(Wire& wire, Message& message, const Parts&) {
     wire.value(hash.low);
     wire.value(hash.high);
   });
+}
+
+template <class Wire, class Message>
+void fields(Wire& wire, Message& message, const Named&) {
+  wire.value(message.slot);
+  wire.require(message.slot < k_max_players);
+  wire.text(message.name);
+}
+
+// A whole command has a size of its own, and every piece brings progress.
+template <class Wire, class Message>
+void command_piece_fields(Wire& wire, Message& message) {
+  piece_fields(wire, message);
+  wire.require(message.total_bytes <= k_max_command_bytes);
+  wire.require(!message.chunk.empty());
+}
+
+template <class Wire, class Message>
+void fields(Wire& wire, Message& message, const CommandPiece&) {
+  command_piece_fields(wire, message);
+}
+
+template <class Wire, class Message>
+void fields(Wire& wire, Message& message, const TickCommand&) {
+  wire.tick(message.tick);
+  wire.value(message.slot);
+  wire.require(message.slot < k_max_players || message.slot == k_server_slot);
+  command_piece_fields(wire, message);
+}
+
+template <class Wire, class Message>
+void fields(Wire& wire, Message& message, const CommandResult&) {
+  wire.value(message.number);
+  wire.value(message.taken);
 }
 
 }  // namespace lockstone::net

@@ -43,6 +43,11 @@ class WireWriter {
       writer_.put(static_cast<std::uint8_t>(c));
   }
 
+  void text(const PlayerName& name) {
+    writer_.put(static_cast<std::uint8_t>(name.view().size()));
+    writer_.put_bytes(std::as_bytes(std::span(name.view())));
+  }
+
   /// Two bytes of length, and the bytes.
   void block(ByteView bytes, std::size_t most_bytes) {
     fits_ = fits_ && bytes.size() <= most_bytes;
@@ -127,6 +132,13 @@ class WireReader {
       require(chars[i] >= ' ' && chars[i] <= '~');
     }
     text = FixedText<k_capacity>({chars.data(), bytes.size()});
+  }
+
+  void text(PlayerName& name) {
+    const auto size = reader_.get<std::uint8_t>();
+    const Result<PlayerName> read = PlayerName::from_bytes(reader_.get_bytes(size));
+    require(read.ok());
+    if (read) name = read.value();
   }
 
   void block(ByteView& bytes, std::size_t most_bytes) {

@@ -11,7 +11,7 @@ void LogOrder::jump(std::uint64_t tick) {
   transcript_ = {};
   last_keyframe_.reset();
   next_tick_ = tick;
-  awaits_hashes_ = false;
+  awaits_inputs_ = awaits_hashes_ = false;
   arrives_ = jumped_ = true;
 }
 
@@ -19,6 +19,9 @@ const char* LogOrder::check(const ChunkHeader& chunk) const {
   const ChunkType type = chunk.type;
   if (has_scene_ == (type == ChunkType::scene)) return "the scene comes first, and once";
   if (arrives_ && type != ChunkType::keyframe) return "not the keyframe looked for";
+  if (awaits_inputs_ && type != ChunkType::input) {
+    return "each COMMAND chunk is followed by its INPUT chunk";
+  }
   if (awaits_hashes_ != (type == ChunkType::hash)) {
     return "each INPUT chunk is followed by its HASH chunk";
   }
@@ -50,6 +53,7 @@ const char* LogOrder::check_end(const LogEnd& end) const {
 
 void LogOrder::note_inputs(std::uint32_t ticks) {
   LKS_ASSERT(!awaits_hashes_ && ticks > 0);
+  awaits_inputs_ = false;
   input_ticks_ = ticks;
   awaits_hashes_ = true;
   next_tick_ += ticks;

@@ -10,8 +10,9 @@
 
 namespace lockstone::replay {
 
-/// A scene first; then inputs and their hashes in turn, and at most one keyframe between them; the
-/// END last. Checks return the fault, or null; only chunks without a fault are noted.
+/// A scene first; then inputs, with their commands before them, and their hashes in turn, and at
+/// most one keyframe between them; the END last. Checks return the fault, or null; only chunks
+/// without a fault are noted.
 class LogOrder {
  public:
   /// The log's first tick.
@@ -28,12 +29,15 @@ class LogOrder {
   [[nodiscard]] const char* check_end(const LogEnd& end) const;
 
   void note_scene() { has_scene_ = true; }
+  /// Of ticks of the inputs that come next.
+  void note_commands() { awaits_inputs_ = true; }
   void note_inputs(std::uint32_t ticks);
   /// The hashes of the inputs that were noted last.
   void note_hashes(std::uint64_t last_hash);
   /// One of the ticks whose hashes have come.
-  void add_to_transcript(std::uint64_t tick, std::span<const PlayerInput> inputs) {
-    transcript_.add(tick, inputs);
+  void add_to_transcript(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                         std::span<const PlayerCommand> commands) {
+    transcript_.add(tick, inputs, commands);
   }
   void note_keyframe(std::uint64_t tick, std::uint64_t hash);
   void note_events(std::size_t events) { seen_.events += events; }
@@ -44,6 +48,8 @@ class LogOrder {
 
   [[nodiscard]] bool has_scene() const { return has_scene_; }
   [[nodiscard]] bool complete() const { return complete_; }
+  /// The commands that were read last are of the inputs that come.
+  [[nodiscard]] bool awaits_inputs() const { return awaits_inputs_; }
   /// How many ticks the last inputs have.
   [[nodiscard]] std::uint32_t input_ticks() const { return input_ticks_; }
   [[nodiscard]] TranscriptHash transcript() const { return transcript_.value(); }
@@ -56,6 +62,7 @@ class LogOrder {
   std::uint64_t next_tick_ = 0;
   std::uint32_t input_ticks_ = 0;
   bool has_scene_ = false;
+  bool awaits_inputs_ = false;  ///< the last chunk was COMMAND
   bool awaits_hashes_ = false;  ///< the last chunk was INPUT
   bool complete_ = false;
   bool signed_ = false;   ///< a SIGNATURE stands behind the END

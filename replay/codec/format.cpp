@@ -24,6 +24,8 @@ std::string_view to_string(ChunkType type) {
       return "END";
     case ChunkType::signature:
       return "SIGNATURE";
+    case ChunkType::command:
+      return "COMMAND";
   }
   return "chunk";
 }
@@ -43,6 +45,8 @@ std::string_view to_string(EventKind kind) {
       return "substitution";
     case EventKind::note:
       return "note";
+    case EventKind::name:
+      return "name";
   }
   return "event";
 }

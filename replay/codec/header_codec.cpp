@@ -5,9 +5,9 @@
 #include <lockstone/assert.h>
 #include <lockstone/hash.h>
 #include <lockstone/simulation_fields.h>
+#include <lockstone/utf8.h>
 
 #include "replay/bytes/log_digest.h"
-#include "replay/bytes/utf8.h"
 #include "replay/codec/field_codec.h"
 #include "replay/codec/index_codec.h"
 #include "replay/codec/input_codec.h"
@@ -27,7 +27,7 @@ constexpr std::uint64_t k_payload_seed = 3;
 constexpr std::size_t k_frame_checksum_offset = k_chunk_header_bytes - k_checksum_bytes;
 
 // The longest INPUT payload; tests relate it to InputEncoder::bytes_max.
-constexpr std::size_t k_max_input_payload_bytes = 2U << 20;
+constexpr std::size_t k_max_input_payload_bytes = 5U << 20;
 
 // The integers of the header behind its simulation's, in the order of the file.
 template <class Match, class Visit>
@@ -82,10 +82,11 @@ DecodeFault get_text(ByteReader& reader, std::string& text, std::size_t limit) {
   return {};
 }
 
-DecodeFault check_ranges(const LogHeader& header) {
+DecodeFault check_ranges(const LogHeader& header, std::uint16_t version) {
   const SimulationInfo& info = header.info;
   if (info.tick_rate == 0) return malformed(40, "tick rate is 0");
-  if (info.player_count == 0 || info.player_count > k_max_players) {
+  const std::size_t most = version == k_oldest_format_version ? k_old_max_players : k_max_players;
+  if (info.player_count == 0 || info.player_count > most) {
     return malformed(42, "player count out of range");
   }
   if (info.input_bytes == 0 || info.input_bytes > k_max_input_bytes) {
@@ -173,7 +174,8 @@ DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t&
   }
   ByteReader reader(covered);
   (void)reader.get_bytes(k_magic.size());
-  if (reader.get<std::uint16_t>() != k_format_version) {
+  const auto version = reader.get<std::uint16_t>();
+  if (version < k_oldest_format_version || version > k_format_version) {
     return {Status::unsupported_version, 8,
             "of another format version than this build reads; record it again"};
   }
@@ -187,7 +189,7 @@ DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t&
   });
   if (!fault.ok()) return fault;
   if (reader.remaining() != 0) return malformed(reader.position(), "bytes after the last text");
-  return check_ranges(header);
+  return check_ranges(header, version);
 }
 
 std::uint64_t payload_checksum(ByteView stored) {
@@ -239,6 +241,8 @@ std::size_t max_payload_bytes(ChunkType type) {
       return k_max_index_bytes;
     case ChunkType::signature:
       return k_signature_bytes;
+    case ChunkType::command:
+      return k_max_command_chunk_bytes;
     default:
       return k_max_keyframe_bytes;
   }
@@ -267,7 +271,8 @@ DecodeFault check_bounds(const ChunkHeader& chunk, const SimulationInfo& info) {
 }
 
 bool is_known(ChunkType type) {
-  return (type >= ChunkType::scene && type <= ChunkType::event) || type == ChunkType::end;
+  return (type >= ChunkType::scene && type <= ChunkType::event) || type == ChunkType::end ||
+         type == ChunkType::command;
 }
 
 }  // namespace lockstone::replay

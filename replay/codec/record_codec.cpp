@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "replay/bytes/utf8.h"
+#include <lockstone/utf8.h>
+
 #include "replay/codec/field_codec.h"
 
 namespace lockstone::replay {

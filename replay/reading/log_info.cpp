@@ -25,11 +25,27 @@ void count_inputs(const LogReader& reader, LogInfo& info) {
   }
 }
 
+void count_commands(const LogReader& reader, LogInfo& info) {
+  for (std::size_t i = 0; i < reader.chunk().count; ++i) {
+    for (const PlayerCommand& command : reader.tick_commands(i)) {
+      ++info.commands;
+      info.command_bytes += command.bytes.size();
+    }
+  }
+}
+
 void list_events(const LogReader& reader, LogInfo& info) {
   info.event_count += reader.events().size();
   const std::size_t room = k_max_listed_events - info.events.size();
   const auto listed = reader.events().first(std::min(room, reader.events().size()));
   info.events.insert(info.events.end(), listed.begin(), listed.end());
+}
+
+void note_names(const LogReader& reader, LogInfo& info) {
+  for (const LogEvent& event : reader.events()) {
+    const bool names = event.kind == EventKind::name && event.slot < info.player_names.size();
+    if (names) info.player_names[event.slot] = event.text;
+  }
 }
 
 void take(LogItem item, const LogReader& reader, LogInfo& info) {
@@ -41,6 +57,7 @@ void take(LogItem item, const LogReader& reader, LogInfo& info) {
     case LogItem::inputs:
       return count_inputs(reader, info);
     case LogItem::hashes:
+      count_commands(reader, info);
       info.ticks += reader.hashes().size();
       info.last_hash = reader.hashes().back();
       return;
@@ -48,6 +65,7 @@ void take(LogItem item, const LogReader& reader, LogInfo& info) {
       info.keyframe_ticks.push_back(reader.chunk().first_tick);
       return;
     case LogItem::events:
+      note_names(reader, info);
       return list_events(reader, info);
     case LogItem::end:
       info.end_reason = reader.end().reason;
@@ -66,6 +84,7 @@ Result<LogInfo> read_log_info(Source& source, Damage* damage) {
   if (status != Status::ok) return status;
   LogInfo info;
   info.header = reader.header();
+  info.player_names.resize(info.header.info.player_count);
   info.file_bytes = source.size();
   LogItem item = reader.next();
   for (; !is_last(item); item = reader.next())

@@ -6,15 +6,16 @@
 
 #include "replay/chunks/chunk_reader.h"
 #include "replay/chunks/log_order.h"
+#include "replay/codec/command_codec.h"
 #include "replay/codec/input_codec.h"
 #include "replay/codec/record_codec.h"
 
 namespace lockstone::replay {
 
 std::string_view to_string(LogItem item) {
-  constexpr std::array<std::string_view, 10> k_names{"scene",  "inputs", "hashes",  "keyframe",
-                                                     "events", "end",    "skipped", "finished",
-                                                     "torn",   "damaged"};
+  constexpr std::array<std::string_view, 11> k_names{"scene",    "inputs", "hashes", "keyframe",
+                                                     "commands", "events", "end",    "skipped",
+                                                     "finished", "torn",   "damaged"};
   const auto index = static_cast<std::size_t>(item);
   return index < k_names.size() ? k_names[index] : "unknown";
 }
@@ -32,6 +33,8 @@ struct LogReader::Parts {
 
   // The content of the last chunk of each kind.
   InputBlock inputs;
+  CommandBlock commands;
+  std::uint64_t first_tick = 0;  // of the inputs
   std::vector<std::uint64_t> hashes;
   std::vector<LogEvent> events;
   LogEnd end;
@@ -43,6 +46,7 @@ struct LogReader::Parts {
   [[nodiscard]] LogItem read_known();
   [[nodiscard]] bool check_frame();
   [[nodiscard]] LogItem read_inputs();
+  [[nodiscard]] LogItem read_commands();
   [[nodiscard]] LogItem read_hashes();
   [[nodiscard]] LogItem read_keyframe();
   [[nodiscard]] LogItem read_events();
@@ -108,6 +112,11 @@ std::span<const PlayerInput> LogReader::tick_inputs(std::size_t index) const {
   return parts_->inputs.tick(index);
 }
 
+std::span<const PlayerCommand> LogReader::tick_commands(std::size_t index) const {
+  LKS_ASSERT(index < parts_->inputs.ticks());
+  return parts_->commands.of(parts_->first_tick + index);
+}
+
 Status LogReader::open() {
   LKS_ASSERT(!parts_->opened);
   if (parts_->chunks.open() != Walk::good) {
@@ -168,7 +177,8 @@ bool LogReader::Parts::check_frame() {
   const bool has_ticks = chunk().type == ChunkType::input || chunk().type == ChunkType::hash;
   const std::size_t second = max_chunk_ticks(chunks.log().info);
   const bool in_range = has_ticks ? chunk().count >= 1 && chunk().count <= second
-                                  : chunk().count == 0 || chunk().type == ChunkType::event;
+                                  : chunk().count == 0 || chunk().type == ChunkType::event ||
+                                        chunk().type == ChunkType::command;
   if (!in_range) (void)reject(Status::malformed, "count out of range");
   return in_range;
 }
@@ -180,6 +190,8 @@ LogItem LogReader::Parts::read_known() {
       return LogItem::scene;
     case ChunkType::input:
       return read_inputs();
+    case ChunkType::command:
+      return read_commands();
     case ChunkType::hash:
       return read_hashes();
     case ChunkType::keyframe:
@@ -197,8 +209,22 @@ LogItem LogReader::Parts::read_inputs() {
   const DecodeFault fault =
       inputs.decode(chunks.payload(), chunk().count, info.player_count, info.input_bytes);
   if (!fault.ok()) return reject(fault);
+  if (!order.awaits_inputs()) commands.clear();
+  first_tick = chunk().first_tick;
+  if (commands.end_tick() > first_tick + chunk().count) {
+    return reject(Status::malformed, "the COMMAND chunk before it is of later ticks too");
+  }
   order.note_inputs(chunk().count);
   return LogItem::inputs;
+}
+
+LogItem LogReader::Parts::read_commands() {
+  if (const char* fault = order.check_start()) return reject(Status::malformed, fault);
+  const DecodeFault fault = commands.decode(chunks.payload(), chunk().count, chunk().first_tick,
+                                            chunks.log().info.player_count);
+  if (!fault.ok()) return reject(fault);
+  order.note_commands();
+  return LogItem::commands;
 }
 
 LogItem LogReader::Parts::read_hashes() {
@@ -212,7 +238,7 @@ LogItem LogReader::Parts::read_hashes() {
   for (std::uint64_t& hash : hashes)
     hash = reader.get<std::uint64_t>();
   for (std::size_t i = 0; i < count; ++i)
-    order.add_to_transcript(chunk().first_tick + i, inputs.tick(i));
+    order.add_to_transcript(first_tick + i, inputs.tick(i), commands.of(first_tick + i));
   order.note_hashes(hashes.back());
   return LogItem::hashes;
 }

@@ -30,9 +30,24 @@ std::optional<InputDifference> compare_inputs(std::uint64_t tick, std::span<cons
   return std::nullopt;
 }
 
+std::optional<CommandDifference> compare_commands(std::uint64_t tick,
+                                                  std::span<const PlayerCommand> here,
+                                                  std::span<const PlayerCommand> there) {
+  const auto [a, b] = std::mismatch(here.begin(), here.end(), there.begin(), there.end(),
+                                    [](const PlayerCommand& one, const PlayerCommand& other) {
+                                      return one.slot == other.slot &&
+                                             std::equal(one.bytes.begin(), one.bytes.end(),
+                                                        other.bytes.begin(), other.bytes.end());
+                                    });
+  if (a == here.end() && b == there.end()) return std::nullopt;
+  return CommandDifference{tick, static_cast<std::size_t>(a - here.begin())};
+}
+
 void compare_ticks(const TickReader& here, const TickReader& there, LogComparison& result) {
   if (result.ticks++ == 0) result.first_tick = here.tick();
   if (!result.input) result.input = compare_inputs(here.tick(), here.inputs(), there.inputs());
+  if (!result.command)
+    result.command = compare_commands(here.tick(), here.commands(), there.commands());
   if (!result.hash && here.hash() != there.hash()) {
     result.hash = HashDifference{here.tick(), here.hash(), there.hash()};
   }
@@ -54,14 +69,19 @@ void note_damage(const TickReader& ticks, LogComparison& result) {
 }  // namespace
 
 bool LogComparison::same() const {
-  return status == Status::ok && header.empty() && same_config && !input && !hash &&
+  return status == Status::ok && header.empty() && same_config && !input && !command && !hash &&
          end_here == end_there;
 }
 
 std::optional<std::uint64_t> LogComparison::first_difference() const {
-  if (!input && !hash) return std::nullopt;
-  if (!input || !hash) return input ? input->tick : hash->tick;
-  return std::min(input->tick, hash->tick);
+  std::optional<std::uint64_t> first;
+  const auto note = [&first](const auto& difference) {
+    if (difference) first = std::min(first.value_or(difference->tick), difference->tick);
+  };
+  note(input);
+  note(command);
+  note(hash);
+  return first;
 }
 
 LogComparison compare_logs(Source& here, Source& there) {

@@ -74,7 +74,7 @@ void step_to(SeekResult& result, std::uint64_t tick) {
       result.what = "the log ends at tick " + std::to_string(simulation.tick());
       return;
     }
-    simulation.step(result.ticks->inputs());
+    step_tick(simulation, result.ticks->inputs(), result.ticks->commands());
     if (result.diverged || simulation.hash() == result.ticks->hash()) continue;
     result.diverged = true;
     result.diverged_tick = result.ticks->tick();

@@ -5,6 +5,13 @@
 #include "replay/bytes/text.h"
 
 namespace lockstone::replay {
+namespace {
+
+// Set in the number of players where commands follow.
+constexpr std::uint8_t k_has_commands = 0x80;
+static_assert(k_max_players < k_has_commands);
+
+}  // namespace
 
 struct Transcript::Parts {
   Sha256 hash;
@@ -15,17 +22,33 @@ Transcript::~Transcript() = default;
 Transcript::Transcript(Transcript&&) noexcept = default;
 Transcript& Transcript::operator=(Transcript&&) noexcept = default;
 
-void Transcript::add(std::uint64_t tick, std::span<const PlayerInput> inputs) {
+void Transcript::add(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                     std::span<const PlayerCommand> commands) {
   std::array<std::byte, sizeof(tick) + 1> head{};
   ByteWriter writer(head);
   writer.put(tick);
-  writer.put(static_cast<std::uint8_t>(inputs.size()));
+  const std::uint8_t mark = commands.empty() ? 0 : k_has_commands;
+  writer.put(static_cast<std::uint8_t>(inputs.size() | mark));
   parts_->hash.update(head);
   for (const PlayerInput& input : inputs) {
     const std::array<std::byte, 2> front{static_cast<std::byte>(input.origin),
                                          static_cast<std::byte>(input.bytes.size())};
     parts_->hash.update(front);
     parts_->hash.update(input.bytes);
+  }
+  if (!commands.empty()) add_commands(commands);
+}
+
+void Transcript::add_commands(std::span<const PlayerCommand> commands) {
+  const std::array<std::byte, 1> count{static_cast<std::byte>(commands.size())};
+  parts_->hash.update(count);
+  for (const PlayerCommand& command : commands) {
+    std::array<std::byte, 5> front{};
+    ByteWriter writer(front);
+    writer.put(command.slot);
+    writer.put(static_cast<std::uint32_t>(command.bytes.size()));
+    parts_->hash.update(front);
+    parts_->hash.update(command.bytes);
   }
 }
 

@@ -83,7 +83,7 @@ void Verification::take_ticks() {
   if (!running() && !explaining_) return;
   const std::uint64_t first_tick = reader_.chunk().first_tick;
   for (std::size_t i = 0; i < reader_.hashes().size(); ++i) {
-    simulation_->step(reader_.tick_inputs(i));
+    step_tick(*simulation_, reader_.tick_inputs(i), reader_.tick_commands(i));
     if (explaining_) continue;
     const std::uint64_t expected = reader_.hashes()[i];
     const std::uint64_t actual = simulation_->hash();

@@ -25,13 +25,14 @@ struct GoodPart {
   std::uint32_t next_sequence = 0;
 };
 
-// Reads as far as the log is good. `part` follows each item but INPUT, which is nothing without its
-// hashes, and the items between the two.
+// Reads as far as the log is good. `part` follows each item but COMMAND and INPUT, which are
+// nothing without the hashes, and the items between them.
 LogItem measure(LogReader& reader, GoodPart& part) {
   bool awaits_hashes = false;
   LogItem item = reader.next();
   for (; !is_last(item) && item != LogItem::end; item = reader.next()) {
-    awaits_hashes = item == LogItem::inputs || (awaits_hashes && item == LogItem::skipped);
+    awaits_hashes = item == LogItem::inputs || item == LogItem::commands ||
+                    (awaits_hashes && item == LogItem::skipped);
     if (awaits_hashes) continue;
     if (item == LogItem::scene) part.has_scene = true;
     const ChunkHeader& chunk = reader.chunk();
@@ -137,6 +138,8 @@ void copy_ticks(TickReader& ticks, std::uint64_t end, Recorder& recorder, CutRep
     }
     if (report.status != Status::ok) return;
     hash = ticks.hash();
+    report.status = recorder.record_commands(ticks.commands());
+    if (report.status != Status::ok) return;
     report.status = recorder.record_tick(ticks.tick(), ticks.inputs(), hash);
     ++report.ticks;
   }

@@ -11,6 +11,7 @@
 #include "replay/codec/index_codec.h"
 #include "replay/codec/input_codec.h"
 #include "replay/codec/record_codec.h"
+#include "replay/writing/command_chunk.h"
 
 namespace lockstone::replay {
 namespace {
@@ -23,6 +24,13 @@ constexpr std::size_t k_keyframe_prefix_bytes = k_chunk_header_bytes + sizeof(st
 bool in_range(const SimulationInfo& info) {
   return info.tick_rate > 0 && info.player_count > 0 && info.player_count <= k_max_players &&
          info.input_bytes > 0 && info.input_bytes <= k_max_input_bytes;
+}
+
+bool fits(const SimulationInfo& info, std::span<const PlayerInput> inputs) {
+  return inputs.size() == info.player_count &&
+         std::all_of(inputs.begin(), inputs.end(), [&info](const PlayerInput& input) {
+           return input.bytes.size() == info.input_bytes && input.origin <= InputOrigin::absent;
+         });
 }
 
 std::uint32_t chunk_ticks(const RecorderOptions& options, const SimulationInfo& info) {
@@ -51,6 +59,7 @@ struct Recorder::Buffers {
   std::vector<std::uint64_t> hashes;  // reserved for a chunk's ticks
   std::vector<std::byte> events;
   std::vector<std::byte> keyframe;
+  CommandChunk commands;
   std::size_t event_bytes = 0;
   std::uint32_t event_count = 0;
   InputEncoder inputs;
@@ -126,11 +135,13 @@ Status Recorder::check_recording() const {
   return state_ == State::failed ? Status::io_error : Status::invalid_argument;
 }
 
-bool Recorder::fits(std::span<const PlayerInput> inputs) const {
-  return inputs.size() == info_.player_count &&
-         std::all_of(inputs.begin(), inputs.end(), [&](const PlayerInput& input) {
-           return input.bytes.size() == info_.input_bytes && input.origin <= InputOrigin::absent;
-         });
+Status Recorder::record_commands(std::span<const PlayerCommand> commands) {
+  Status status = check_recording();
+  if (status != Status::ok || commands.empty()) return status;
+  if (!buffers_->commands.takes(commands, info_.player_count)) return Status::invalid_argument;
+  if (!buffers_->commands.has_room(commands)) status = flush();
+  if (status == Status::ok) buffers_->commands.add(next_tick_, commands);
+  return status;
 }
 
 Status Recorder::record_tick(std::uint64_t tick, std::span<const PlayerInput> inputs,
@@ -138,10 +149,11 @@ Status Recorder::record_tick(std::uint64_t tick, std::span<const PlayerInput> in
   const Status status = check_recording();
   if (status != Status::ok) return status;
   const bool has_start = start_tick_ == 0 || totals_.keyframes > 0;
-  if (tick != next_tick_ || !has_start || !fits(inputs)) return Status::invalid_argument;
+  if (tick != next_tick_ || !has_start || !fits(info_, inputs)) return Status::invalid_argument;
   buffers_->inputs.add(inputs);
   buffers_->hashes.push_back(hash);
-  buffers_->transcript.add(tick, inputs);
+  buffers_->transcript.add(tick, inputs, buffers_->commands.next());
+  buffers_->commands.note_tick();
   ++next_tick_;
   ++totals_.ticks;
   totals_.final_hash = hash;
@@ -221,6 +233,12 @@ Status Recorder::event(std::uint64_t tick, EventKind kind, std::uint8_t slot,
 Status Recorder::flush() {
   const Status status = check_recording();
   if (status != Status::ok) return status;
+  if (!buffers_->commands.empty()) {
+    const std::uint64_t first_tick = next_tick_ - buffers_->hashes.size();
+    const Status appended = append(buffers_->commands.seal(buffers_->writer, first_tick));
+    if (appended != Status::ok) return appended;
+    buffers_->commands.restart();
+  }
   const std::size_t tick_bytes = buffers_->hashes.empty() ? 0 : seal_ticks();
   const std::size_t used_bytes = buffers_->event_count == 0 ? tick_bytes : seal_events(tick_bytes);
   if (used_bytes == 0) return Status::ok;

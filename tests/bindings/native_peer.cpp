@@ -21,6 +21,8 @@ namespace {
 
 using namespace lockstone;
 
+constexpr std::size_t k_most_players = 16;  // of this game, as in the other languages
+
 class Pushers final : public Simulation {
  public:
   explicit Pushers(std::uint8_t players)
@@ -82,20 +84,20 @@ class Pushers final : public Simulation {
  private:
   static WorldDef definition() {
     WorldDef def;
-    def.body_capacity = k_max_players + 1;
+    def.body_capacity = k_most_players + 1;
     return def;
   }
 
   std::uint8_t players_;
   World world_;
-  std::array<BodyHandle, k_max_players> balls_{};
+  std::array<BodyHandle, k_most_players> balls_{};
   std::uint64_t scene_hash_ = 0;
 };
 
 Result<std::unique_ptr<Simulation>> make_pushers(ByteView config) {
   if (config.size() != 1) return Status::malformed;
   const auto players = static_cast<std::uint8_t>(config[0]);
-  if (players < 1 || players > k_max_players) return Status::invalid_argument;
+  if (players < 1 || players > k_most_players) return Status::invalid_argument;
   return std::unique_ptr<Simulation>(std::make_unique<Pushers>(players));
 }
 

@@ -8,6 +8,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/bindings/python/examples"))
 
 import lockstone
+from lockstone import _declarations as c
 from lockstone import Client, GameLibrary, Log, LockstoneError, Network, Recorder, Server, ticks_of
 from pushers import Pushers
 
@@ -66,6 +67,42 @@ class Sessions(unittest.TestCase):
         self.assertEqual(log.seek(self.game, 50).hash, seen[0][49][1])
         self.assertEqual(next(iter(log)).number, 50)
         self.assertEqual((log.info.game, log.info.complete), (b"pushers", 1))
+
+    def test_names_and_commands_reach_everybody(self):
+        heard = []
+
+        class Talking(Pushers):
+            def command(self, slot, data):
+                heard.append((self.tick, slot, data))
+
+        self.game = GameLibrary(Talking)
+        network = Network(4)
+        end = network.add()
+        clients = [self.client(network, end, 0), self.client(network, end, 6)]
+        simulation = self.game.simulation(b"\2")
+        server = Server(simulation, end, insecure=1, tick_count=TICKS)
+        recorder = Recorder(simulation)
+        server.record(recorder)
+        seen, now, long = [[], [], []], 0, bytes(range(256)) * 100
+        while not server.over and now < 60_000_000:
+            now += 4000
+            for peer, commands in zip([server, *clients], seen):
+                commands += [(event.tick, event.slot, event.data) for event in peer.update(now)
+                             if event.kind == c.LKS_SESSION_COMMAND]
+            if now == 1_000_000:
+                self.assertEqual(clients[1].send_command(long), 0)
+                server.send_command(b"hello")
+        self.assertEqual({(slot, data) for _, slot, data in seen[0]}, {(clients[1].view.slot, long), (c.LKS_SERVER_SLOT, b"hello")})
+        self.assertEqual(seen[0], seen[1])
+        self.assertEqual(seen[0], seen[2])
+        self.assertEqual(sorted(heard), sorted(3 * seen[0]))  # of the server and both clients
+        self.assertEqual([peer.player_name(1) for peer in (server, *clients)], 3 * ["player"])
+
+        recorder.finish("over")
+        heard.clear()
+        verdict = Log(recorder.bytes()).verify(self.game)
+        self.assertEqual((verdict.outcome, verdict.ticks_verified), (lockstone.SAME, TICKS), verdict.line)
+        self.assertEqual(heard, seen[0])
 
     def test_logs_that_differ_are_bisected(self):
         found = played(self.game, 1).bisect(played(self.game, 99), self.game)

@@ -33,6 +33,8 @@ std::vector<Bytes> seeds() {
   match.finishes = false;
   match.start_tick = 5;
   all.push_back(test::record(match));
+  match.command_every = 2;
+  all.push_back(test::record(match));
   match.compress = compression_available();
   all.push_back(test::record(match));
   return all;

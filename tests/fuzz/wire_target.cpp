@@ -102,6 +102,14 @@ bool run(ByteView packet) {
       return run_plain<Paused>(packet);
     case MessageType::parts:
       return run_plain<Parts>(packet);
+    case MessageType::command:
+      return run_plain<CommandPiece>(packet);
+    case MessageType::tick_command:
+      return run_plain<TickCommand>(packet);
+    case MessageType::command_result:
+      return run_plain<CommandResult>(packet);
+    case MessageType::named:
+      return run_plain<Named>(packet);
     default:
       return false;
   }
@@ -121,7 +129,7 @@ Inputs sample_inputs() {
 
 Ticks sample_ticks() {
   // The second player was late: its input is repeated.
-  static const std::array coded{std::byte{0x80}, std::byte{0x03}, std::byte{0x00},
+  static const std::array coded{std::byte{0x80}, std::byte{0x03}, std::byte{0x00}, std::byte{0x00},
                                 std::byte{0x04}, std::byte{9},    std::byte{0x01}};
   Ticks ticks;
   ticks.first_tick = 3;
@@ -135,7 +143,7 @@ Ticks sample_ticks() {
 std::vector<Bytes> seeds() {
   static const std::array chunk{std::byte{1}, std::byte{2}, std::byte{3}};
   Hello hello;
-  hello.name = NameText("A");
+  hello.name = PlayerName("A");
   Welcome welcome;
   welcome.player_count = 3;
   DesyncNotice notice;
@@ -160,7 +168,11 @@ std::vector<Bytes> seeds() {
           bytes_of(Activate{2, 90}),
           bytes_of(Ask{AskKind::vote, 1, 2}),
           bytes_of(Paused{true}),
-          bytes_of(Parts{128, 2, {{{1, 2}, {3, 4}}}})};
+          bytes_of(Parts{128, 2, {{{1, 2}, {3, 4}}}}),
+          bytes_of(Named{2, PlayerName("Zo\u00eb")}),
+          bytes_of(CommandPiece{5, 2, chunk}),
+          bytes_of(TickCommand{9, k_server_slot, 5, 2, chunk}),
+          bytes_of(CommandResult{3, true})};
 }
 
 const Registration k_registration{{.name = "wire", .seeds = seeds, .run = run}};

@@ -39,7 +39,7 @@ HEADERS_ONLY = {"world"}
 # header may include the same modules.
 PUBLIC_MODULES = {
     "base": ["assert.h", "bytes.h", "hash.h", "refusal.h", "status.h", "tasks.h",
-             "thread_pool.h"],
+             "thread_pool.h", "utf8.h"],
     "math": ["decimal.h", "fixed.h", "game_math.h", "literals.h", "quat.h", "random.h", "roots.h", "rotation.h",
              "transform.h", "trigonometry.h", "units.h", "vec3.h", "vector_math.h"],
     "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "load_asset.h", "material.h",
@@ -50,7 +50,7 @@ PUBLIC_MODULES = {
 }
 # For tools and tests only, so it sees everything and no library may include it.
 TESTING = "core/include/lockstone/testing/"
-SEAM = {f"core/include/lockstone/{name}.h" for name in ("simulation", "simulation_fields", "bytes", "status", "hash", "assert")}
+SEAM = {f"core/include/lockstone/{name}.h" for name in ("simulation", "simulation_fields", "bytes", "status", "hash", "assert", "utf8")}
 
 # Libraries of others: who may include them.
 THIRD_PARTY = {

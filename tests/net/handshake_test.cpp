@@ -145,7 +145,7 @@ TEST_F(Handshake, RefusesAnotherProtocolVersionAndNamesBothValues) {
   run_for(k_second_us);
   ASSERT_EQ(log_.refusals.size(), 1U);
   EXPECT_EQ(log_.refusals[0].to_line(),
-            "refused: protocol mismatch, protocol: 0x0000000000000004 here, "
+            "refused: protocol mismatch, protocol: 0x0000000000000005 here, "
             "0x0000000000000007 there");
 }
 

@@ -10,7 +10,22 @@ void Seen::add(std::span<const PlayerInput> inputs) {
     tick.bytes.insert(tick.bytes.end(), input.bytes.begin(), input.bytes.end());
     tick.origins.push_back(input.origin);
   }
+  tick.commands = std::move(next_commands);
+  next_commands.clear();
   ticks.push_back(std::move(tick));
+}
+
+void Seen::add_commands(std::span<const PlayerCommand> commands) {
+  EXPECT_FALSE(commands.empty());
+  for (const PlayerCommand& command : commands)
+    next_commands.push_back({command.slot, {command.bytes.begin(), command.bytes.end()}});
+}
+
+std::size_t Seen::command_count() const {
+  std::size_t count = 0;
+  for (const SeenTick& tick : ticks)
+    count += tick.commands.size();
+  return count;
 }
 
 void FaultySimulation::step(std::span<const PlayerInput> inputs) {
@@ -36,6 +51,11 @@ void ServerLog::tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> 
   EXPECT_EQ(tick, seen.ticks.size());
   seen.add(inputs);
   if (hash) seen.hashes.push_back(*hash);
+}
+
+void ServerLog::commands_confirmed(std::uint64_t tick, std::span<const PlayerCommand> commands) {
+  EXPECT_EQ(tick, seen.ticks.size());
+  seen.add_commands(commands);
 }
 
 void ServerLog::hash_agreed(std::uint64_t tick, std::uint64_t hash) {
@@ -65,6 +85,11 @@ void ClientLog::tick_stepped(std::uint64_t tick, std::span<const PlayerInput> in
   EXPECT_EQ(tick, first_tick + seen.ticks.size());
   seen.add(inputs);
   seen.hashes.push_back(hash);
+}
+
+void ClientLog::commands_stepped(std::uint64_t tick, std::span<const PlayerCommand> commands) {
+  EXPECT_EQ(tick, first_tick + seen.ticks.size());
+  seen.add_commands(commands);
 }
 
 Match::Match(MatchOptions match_options)
@@ -98,6 +123,7 @@ Match::Player& Match::add_player(std::uint8_t wanted_slot, std::uint64_t rejoin_
   ClientConfig config = options.client;
   config.insecure = !options.secure;
   config.wanted_slot = wanted_slot;
+  if (!config.name.empty()) config.name += std::to_string(wanted_slot);
   config.rejoin_key = rejoin_key;
   ClientParts client_parts;
   client_parts.transport = player.transport;
@@ -171,7 +197,10 @@ void Match::expect_all_equal() const {
       const std::size_t size = options.toy.input_bytes;
       inputs.push_back({ByteView(tick.bytes).subspan(slot * size, size), tick.origins[slot]});
     }
-    alone.step(inputs);
+    std::vector<PlayerCommand> commands;
+    for (const SeenCommand& command : tick.commands)
+      commands.push_back({command.slot, command.bytes});
+    step_tick(alone, inputs, commands);
     hashes.push_back(alone.hash());
   }
   EXPECT_TRUE(truth.hashes == hashes || !options.authoritative);

@@ -22,10 +22,18 @@ using lockstone::toy::ToySimulation;
 
 inline constexpr std::int64_t k_second_us = 1'000'000;
 
+/// A command as a peer saw it.
+struct SeenCommand {
+  std::uint8_t slot = 0;
+  std::vector<std::byte> bytes;
+  friend bool operator==(const SeenCommand&, const SeenCommand&) = default;
+};
+
 /// One tick as a peer saw it, comparable.
 struct SeenTick {
   std::vector<std::byte> bytes;  ///< all slots' inputs
   std::vector<InputOrigin> origins;
+  std::vector<SeenCommand> commands;
   friend bool operator==(const SeenTick&, const SeenTick&) = default;
 };
 
@@ -34,6 +42,10 @@ struct Seen {
   std::vector<SeenTick> ticks;
   std::vector<std::uint64_t> hashes;
   void add(std::span<const PlayerInput> inputs);
+  /// Of the tick that is added next.
+  void add_commands(std::span<const PlayerCommand> commands);
+  std::vector<SeenCommand> next_commands;
+  [[nodiscard]] std::size_t command_count() const;
 };
 
 /// A bit to flip in live state, right after `tick` was stepped.
@@ -53,6 +65,7 @@ class FaultySimulation final : public Simulation {
   [[nodiscard]] SimulationInfo info() const override { return toy_.info(); }
   [[nodiscard]] std::uint64_t tick() const override { return toy_.tick(); }
   void step(std::span<const PlayerInput> inputs) override;
+  void command(const PlayerCommand& command) override { toy_.command(command); }
   [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override {
     return toy_.snapshot_bytes_max(kind);
   }
@@ -97,6 +110,7 @@ class ScriptedInputs final : public InputSource {
 struct ServerLog final : ServerObserver {
   void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                       std::optional<std::uint64_t> hash) override;
+  void commands_confirmed(std::uint64_t tick, std::span<const PlayerCommand> commands) override;
   void hash_agreed(std::uint64_t tick, std::uint64_t hash) override;
   void player_left(std::uint8_t slot, LeaveReason reason) override;
   void player_silent(std::uint8_t slot, std::int64_t silent_us) override;
@@ -136,6 +150,8 @@ struct ClientLog final : ClientObserver {
   void tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
                     std::uint64_t hash) override;
   void desync_reported(const DesyncReport& report) override { reports.push_back(report); }
+  void commands_stepped(std::uint64_t tick, std::span<const PlayerCommand> commands) override;
+  void command_refused(std::uint64_t number) override { refused.push_back(number); }
   void state_loaded(std::uint64_t ticks) override {
     seen = {};
     first_tick = ticks;
@@ -148,13 +164,14 @@ struct ClientLog final : ClientObserver {
   std::uint64_t first_tick = 0;  ///< `seen` begins here
   std::uint64_t longest_rollback = 0;
   std::vector<std::uint64_t> replaced;
+  std::vector<std::uint64_t> refused;
   std::vector<DesyncReport> reports;
 };
 
 struct MatchOptions {
   ToyConfig toy;
   ServerConfig server;  ///< match_config, info and insecure are filled in
-  ClientConfig client;  ///< insecure and wanted_slot are filled in
+  ClientConfig client;  ///< insecure and wanted_slot are filled in; a name gets the slot behind it
   LinkFaults faults;
   std::uint64_t seed = 1;
   bool authoritative = true;

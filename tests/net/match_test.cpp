@@ -93,6 +93,60 @@ TEST(Match, OfSixteenWithTheLongestInputsFitsItsDatagrams) {
   expect_played_through(match, 150);
 }
 
+MatchOptions crowded_match(std::uint64_t ticks, std::uint64_t seed) {
+  MatchOptions options = match_of(k_max_players, ticks, seed);
+  options.toy.body_count = k_max_players;
+  options.toy.input_bytes = 16;
+  return options;
+}
+
+TEST(Match, Of64WithTheLongestInputsStaysEqualThroughLoss) {
+  for (const bool authoritative : {true, false}) {
+    MatchOptions options = crowded_match(100, 17);
+    options.authoritative = authoritative;
+    options.faults = rough(100'000);
+    options.server.input_delay_ticks = 8;
+    Match match(options);
+    ASSERT_TRUE(match.run(60 * k_second_us));
+    expect_played_through(match, 100);
+    EXPECT_EQ(match.server_log.agreed.size(), authoritative ? 0U : 100U);
+  }
+}
+
+TEST(Match, Of64WaitsForAnySlotAndFindsItsDesync) {
+  MatchOptions options = crowded_match(200, 18);
+  options.server.late_policy = LatePolicy::strict;
+  options.authoritative = false;
+  options.flips.resize(k_max_players);
+  options.flips[63] = {{40, "body", "velocity.x", 12, 7}};
+  Match match(options);
+  match.run_for(k_second_us / 2);
+  match.players[47].paused = true;
+  match.run_for(k_second_us / 2);
+  EXPECT_EQ(match.server->waiting_mask(), slot_bit(47));
+  EXPECT_EQ(match.players[0].client->waiting_mask(), slot_bit(47));
+  EXPECT_EQ(match.server->present_mask(), ~SlotMask{0});
+  match.players[47].paused = false;
+  match.run_for(3 * k_second_us);
+  ASSERT_EQ(match.server_log.reports.size(), 1U);
+  EXPECT_EQ(match.server_log.reports[0].slot, 63);
+  EXPECT_EQ(match.server_log.reports[0].verdict, Verdict::minority);
+  EXPECT_EQ(match.server_log.reports[0].tick, 40U);
+}
+
+TEST(Match, IsRefusedWhoseTickWouldNotFitADatagram) {
+  MatchOptions options = crowded_match(10, 1);
+  options.toy.input_bytes = 17;
+  ToySimulation simulation(options.toy);
+  SimNetwork network(1);
+  ServerConfig config;
+  config.insecure = true;
+  ServerParts parts;
+  parts.transport = &network.add_endpoint();
+  parts.simulation = &simulation;
+  EXPECT_EQ(Server::create(config, parts).error, SetupError::input_bytes_out_of_range);
+}
+
 TEST(Match, KeepsUpByResendsWhereTicksAreBigAndFarAway) {
   MatchOptions options = match_of(16, 300, 6);
   options.toy.input_bytes = 64;

@@ -44,7 +44,9 @@ TEST(ResumeWait, GivesTheOthersALimitedTimeFromTheFirstOneOn) {
 
 TEST(Roster, ListsThoseWhoAreHereAndThoseWhoPlay) {
   Peer player;
-  Roster roster(k_two_players, 1);
+  ServerConfig config;
+  config.max_spectators = 1;
+  Roster roster(k_two_players, config);
   EXPECT_EQ(roster.present_mask(), 0);
   roster.seat(1).occupy(player, 0);
   player.slot = 1;
@@ -62,7 +64,9 @@ TEST(Roster, ListsThoseWhoAreHereAndThoseWhoPlay) {
 TEST(Roster, FindsASpectatorByItsPeer) {
   Peer spectator;
   spectator.slot = k_spectator_slot;
-  Roster roster(k_two_players, 1);
+  ServerConfig config;
+  config.max_spectators = 1;
+  Roster roster(k_two_players, config);
   EXPECT_EQ(roster.follower_of(spectator), nullptr);
   Watcher* place = roster.free_watcher();
   ASSERT_NE(place, nullptr);

@@ -95,11 +95,11 @@ std::vector<Sample> samples() {
   const SimulationInfo info{1, 2, 3, 4, 60, 2, 4};
   return {
       sample("hello",
-             Hello{k_protocol_version, true, 3, 77, 1200, 99, NameText("Ann"), BuildText("1.2")}),
+             Hello{k_protocol_version, true, 3, 77, 1200, 99, PlayerName("Ann"), BuildText("1.2")}),
       sample("offer", Offer{true, config}),
       sample("answer", Answer{info}),
       sample("welcome",
-             Welcome{1, 2, 6, LatePolicy::strict, Pacing::fast, 3600, Entry::snapshot, 88}),
+             Welcome{1, 2, 6, LatePolicy::strict, Pacing::fast, 3600, Entry::snapshot, 88, 9}),
       sample("refuse", Refuse{RefuseReason::simulation_mismatch, RefuseField::canary, 5, 6}),
       sample("start", Start{0b11}),
       sample("inputs", some_inputs(random, inputs_room)),
@@ -118,6 +118,10 @@ std::vector<Sample> samples() {
       sample("ask", Ask{AskKind::vote, 3, 200}),
       sample("paused", Paused{true}),
       sample("parts", Parts{1920, 2, {{{1, 2}, {3, 4}}}}),
+      sample("named", Named{3, PlayerName("Zo\u00eb")}),
+      sample("command", CommandPiece{200, 100, config}),
+      sample("tick_command", TickCommand{1842, k_server_slot, 200, 100, config}),
+      sample("command_result", CommandResult{7, true}),
   };
 }
 
@@ -125,7 +129,7 @@ TEST(Wire, SamplesAreOneOfEachTypeInOrder) {
   std::size_t type = 0;
   for (const Sample& message : samples())
     EXPECT_EQ(message.bytes.at(0), static_cast<std::byte>(++type)) << message.name;
-  EXPECT_EQ(type, static_cast<std::size_t>(MessageType::parts));
+  EXPECT_EQ(type, static_cast<std::size_t>(MessageType::command_result));
 }
 
 TEST(Wire, EveryMessageSurvivesTheRoundTrip) {
@@ -222,14 +226,33 @@ TEST(Wire, HelloOfAnotherVersionTellsItsVersion) {
 
 TEST(Wire, HasTheDocumentedBytes) {
   const std::vector<std::byte> bytes =
-      encoded(Hello{2, true, 255, 3, 4, 5, NameText("A"), BuildText("B")});
-  const std::array<int, 37> expected{1, 'L', 'K', 'S', 'N', 2, 0, 1, 255, 3, 0,  0, 0,
+      encoded(Hello{k_protocol_version, true, 255, 3, 4, 5, PlayerName("A"), BuildText("B")});
+  const std::array<int, 37> expected{1, 'L', 'K', 'S', 'N', 5, 0, 1, 255, 3, 0,  0, 0,
                                      0, 0,   0,   0,   4,   0, 0, 0, 0,   0, 0,  0, 5,
                                      0, 0,   0,   0,   0,   0, 0, 1, 'A', 1, 'B'};
   ASSERT_EQ(bytes.size(), expected.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << i;
   }
+}
+
+TEST(Wire, RefusesCommandsOfNoBytesOrTooMany) {
+  const std::array<std::byte, 1> one{};
+  CommandPiece piece;
+  EXPECT_EQ(decode(encoded(CommandPiece{k_max_command_bytes, 0, one}), piece), Status::ok);
+  EXPECT_EQ(decode(encoded(CommandPiece{k_max_command_bytes + 1, 0, one}), piece),
+            Status::malformed);
+  EXPECT_EQ(decode(encoded(CommandPiece{8, 8, {}}), piece), Status::malformed);
+  EXPECT_EQ(decode(encoded(CommandPiece{8, 8, one}), piece), Status::malformed);
+}
+
+TEST(Wire, RefusesANameWithControlCharacters) {
+  std::vector<std::byte> bytes = encoded(Named{3, PlayerName("Ann")});
+  Named named;
+  ASSERT_EQ(decode(bytes, named), Status::ok);
+  EXPECT_EQ(named.name.view(), "Ann");
+  bytes.back() = std::byte{0x1b};
+  EXPECT_EQ(decode(bytes, named), Status::malformed);
 }
 
 TEST(RecordCoder, GivesBackRandomRuns) {
@@ -258,6 +281,29 @@ TEST(RecordCoder, GivesBackRandomRuns) {
   }
 }
 
+TEST(RecordCoder, WritesARecordAsAWholeWhereThatIsShorter) {
+  std::array<std::byte, 64> room{};
+  RecordWriter writer(room, 16);
+  std::array<std::byte, 16> record{};
+  record.fill(std::byte{7});
+  ASSERT_TRUE(writer.add(record));
+  EXPECT_EQ(writer.written().size(), 17U);
+  EXPECT_EQ(writer.written()[0], std::byte{0x81});
+  record[3] = std::byte{8};
+  ASSERT_TRUE(writer.add(record));
+  EXPECT_EQ(writer.written().size(), 17U + 1 + 2 + 1);
+  RecordReader reader(writer.written(), 16);
+  ASSERT_TRUE(reader.next() && reader.next());
+  EXPECT_TRUE(std::equal(record.begin(), record.end(), reader.record().begin()));
+  EXPECT_TRUE(reader.at_end());
+}
+
+TEST(RecordCoder, RefusesAWholeRecordThatEqualsTheOneBefore) {
+  const std::array<std::byte, 3> coded{std::byte{0x81}, std::byte{0}, std::byte{0}};
+  EXPECT_FALSE(RecordReader(coded, 2).next());
+  EXPECT_FALSE(RecordReader(ByteView(coded).first(2), 2).next());
+}
+
 TEST(RecordCoder, HasTheDocumentedBytes) {
   std::array<std::byte, 16> room{};
   RecordWriter writer(room, 2);
@@ -280,10 +326,13 @@ TEST(RecordCoder, CodesARestingPlayerInOneByte) {
 }
 
 TEST(TickRecord, LargestFitsOneDatagramUncompressed) {
-  constexpr TickShape k_largest{k_max_players, k_max_input_bytes};
-  EXPECT_EQ(k_largest.record_bytes(), k_max_record_bytes);
-  EXPECT_LE(k_ticks_header_bytes + 1 + (k_max_record_bytes + 7) / 8 + k_max_record_bytes,
-            k_max_datagram_bytes);
+  constexpr TickShape k_largest{k_max_players, k_max_tick_input_bytes / k_max_players};
+  ASSERT_EQ(k_largest.record_bytes(), k_max_record_bytes);
+  std::array<std::byte, k_max_datagram_bytes - k_ticks_header_bytes> room{};
+  RecordWriter writer(room, k_max_record_bytes);
+  std::array<std::byte, k_max_record_bytes> record{};
+  record.fill(std::byte{1});
+  EXPECT_TRUE(writer.add(record));
 }
 
 TEST(TickRecord, RefusesBytesOfAnAbsentPlayerAndStrayBits) {

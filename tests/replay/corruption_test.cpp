@@ -162,13 +162,34 @@ TEST(Corruption, RandomContentUnderRightChecksumsNeverCrashesAndIsNeverSameUnnot
   }
 }
 
-TEST(Corruption, AHeaderOfAnotherVersionIsIncompatibleNotCorrupt) {
-  Bytes log = record(small_match());
+// A log whose header says that version; its chunks follow from the header that it had.
+Bytes log_of_version(std::uint8_t version, const ToyMatch& match) {
+  Bytes log = record(match);
   const std::size_t header_bytes = chunks_of(log)[0].offset;
-  log[8] = std::byte{1};
+  log[8] = std::byte{version};
   const auto covered = std::span(log).first(header_bytes - k_checksum_bytes);
   ByteWriter(std::span(log).subspan(covered.size())).put(hash64(covered, 1));
-  const VerifyReport report = verify_toy(log);
+  return log;
+}
+
+TEST(Corruption, ALogOfTheVersionBeforeIsStillRead) {
+  Bytes log = log_of_version(3, small_match());
+  relink(log);
+  EXPECT_EQ(verify_toy(log).outcome, VerifyOutcome::same);
+}
+
+TEST(Corruption, ALogOfTheVersionBeforeHadAtMost16Players) {
+  ToyMatch match = small_match();
+  match.config.player_count = 17;
+  match.config.body_count = 17;
+  EXPECT_EQ(verify_toy(log_of_version(4, match)).outcome, VerifyOutcome::same);
+  const VerifyReport report = verify_toy(log_of_version(3, match));
+  EXPECT_EQ(report.outcome, VerifyOutcome::corrupt);
+  EXPECT_EQ(report.damage->what, "player count out of range");
+}
+
+TEST(Corruption, AHeaderOfAnotherVersionIsIncompatibleNotCorrupt) {
+  const VerifyReport report = verify_toy(log_of_version(1, small_match()));
   EXPECT_EQ(report.outcome, VerifyOutcome::incompatible);
   EXPECT_EQ(report.damage->status, Status::unsupported_version);
 }

@@ -111,6 +111,7 @@ TEST(InputCodec, WorstCaseFitsItsBound) {
     ticks.emplace_back(shape.players, slot);
   }
   EXPECT_EQ(encode(ticks, shape).size(), InputEncoder::bytes_max(60, 16, 64));
+  EXPECT_LE(encode(ticks, shape).size(), max_payload_bytes(ChunkType::input));
 }
 
 // Whatever decodes, encodes to the same bytes again: one content, one encoding.

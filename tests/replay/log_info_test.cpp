@@ -89,6 +89,24 @@ TEST(LogInfo, SumsUpTheWholePartsOfADamagedLog) {
   EXPECT_EQ(result.value().damage->status, Status::truncated);
 }
 
+TEST(LogInfo, HasTheLastNameOfEachPlayer) {
+  MemorySink sink;
+  ToySimulation game({});
+  Recorder recorder(sink);
+  ASSERT_EQ(recorder.begin(game.info(), {}, {}), Status::ok);
+  for (const std::string_view name : {"Ann", "Zo\u00eb"})
+    ASSERT_EQ(recorder.event(0, EventKind::name, 1, name), Status::ok);
+  ASSERT_EQ(recorder.event(0, EventKind::join, 0, "no name"), Status::ok);
+  ASSERT_EQ(recorder.event(0, EventKind::name, k_no_slot, "nobody"), Status::ok);
+  ASSERT_EQ(recorder.finish(""), Status::ok);
+  MemorySource source(sink.bytes());
+  const Result<LogInfo> info = read_log_info(source);
+  ASSERT_TRUE(info.ok());
+  ASSERT_EQ(info.value().player_names.size(), game.info().player_count);
+  EXPECT_EQ(info.value().player_names[0], "");
+  EXPECT_EQ(info.value().player_names[1], "Zo\u00eb");
+}
+
 TEST(LogInfo, ADamagedFileHeaderIsAnError) {
   Bytes log = record({});
   log[20] ^= std::byte{1};

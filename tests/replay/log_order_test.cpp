@@ -43,6 +43,20 @@ TEST(LogOrder, WantsHashesRightAfterTheirInputs) {
   EXPECT_NE(order.check(chunk_of(ChunkType::input, 5, 4)), nullptr) << "tick 4 would lack";
 }
 
+TEST(LogOrder, WantsInputsRightAfterTheirCommands) {
+  LogOrder order = with_scene();
+  EXPECT_EQ(order.check(chunk_of(ChunkType::command, 0, 1)), nullptr);
+  EXPECT_NE(order.check(chunk_of(ChunkType::command, 1, 1)), nullptr);
+  order.note_commands();
+  EXPECT_NE(order.check(chunk_of(ChunkType::command, 0, 1)), nullptr);
+  EXPECT_NE(order.check(chunk_of(ChunkType::keyframe, 0)), nullptr);
+  EXPECT_EQ(order.check(chunk_of(ChunkType::input, 0, 4)), nullptr);
+  order.note_inputs(4);
+  EXPECT_NE(order.check(chunk_of(ChunkType::command, 4, 1)), nullptr);
+  order.note_hashes(7);
+  EXPECT_EQ(order.check(chunk_of(ChunkType::command, 4, 1)), nullptr);
+}
+
 TEST(LogOrder, WantsOneKeyframeATickWithTheHashOfTheTickBefore) {
   LogOrder order = with_scene();
   order.note_inputs(4);

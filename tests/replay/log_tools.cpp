@@ -26,11 +26,24 @@ std::span<const PlayerInput> ToyInputs::at(std::uint64_t tick) {
   return inputs_;
 }
 
+std::span<const PlayerCommand> ToyCommands::at(std::uint64_t tick) {
+  commands_.clear();
+  if (match_.command_every == 0 || tick % match_.command_every != 0) return {};
+  bytes_.resize(match_.command_bytes);
+  for (std::size_t i = 0; i < bytes_.size(); ++i)
+    bytes_[i] = static_cast<std::byte>(7 * tick + i);
+  const std::uint64_t turn = tick / match_.command_every;
+  if (turn % 2 == 1) commands_.push_back({k_server_slot, ByteView(bytes_).first(1)});
+  commands_.push_back({static_cast<std::uint8_t>(turn % match_.config.player_count), bytes_});
+  return commands_;
+}
+
 Status record(const ToyMatch& match, Sink& sink) {
   ToySimulation game(match.config);
   ToyInputs inputs(match.config);
+  ToyCommands commands(match);
   while (game.tick() < match.start_tick)
-    game.step(inputs.at(game.tick()));
+    step_tick(game, inputs.at(game.tick()), commands.at(game.tick()));
   Recorder recorder(sink, {.keyframe_interval_ticks = match.keyframe_interval,
                            .chunk_ticks = match.chunk_ticks,
                            .keyframe_bytes_max = game.snapshot_bytes_max(SnapshotKind::canonical),
@@ -47,11 +60,12 @@ Status record(const ToyMatch& match, Sink& sink) {
   if (status == Status::ok && match.start_tick > 0) status = recorder.keyframe(game);
   for (std::uint64_t i = 0; i < match.ticks && status == Status::ok; ++i) {
     const std::uint64_t tick = game.tick();
-    game.step(inputs.at(tick));
+    step_tick(game, inputs.at(tick), commands.at(tick));
     if (match.flip_at == tick) LKS_CHECK(game.flip_bit("body", 1, "position.x", 0));
     if (match.has_events && tick % 9 == 0) {
       status = recorder.event(tick, EventKind::join, 1, "player one");
     }
+    if (status == Status::ok) status = recorder.record_commands(commands.at(tick));
     if (status == Status::ok) status = recorder.record_step(game, inputs.at(tick));
   }
   if (status == Status::ok && match.finishes) status = recorder.finish("match over");
@@ -142,6 +156,8 @@ Status write_ticks(Recorder& recorder, const LogReader& reader, Alteration& alte
   Status status = Status::ok;
   for (std::size_t i = 0; i < reader.hashes().size() && status == Status::ok; ++i) {
     const std::uint64_t tick = reader.chunk().first_tick + i;
+    status = recorder.record_commands(reader.tick_commands(i));
+    if (status != Status::ok) return status;
     status = recorder.record_tick(tick, alteration.apply(tick, reader.tick_inputs(i)),
                                   reader.hashes()[i]);
   }

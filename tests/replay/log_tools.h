@@ -28,6 +28,8 @@ struct ToyMatch {
   std::uint32_t chunk_ticks = 5;
   bool finishes = true;  ///< false: the recorder stops at the last flush
   bool has_events = true;
+  std::uint64_t command_every = 0;  ///< ticks between those with commands; 0: there are none
+  std::size_t command_bytes = 20;   ///< of each but the server's
   bool compress = false;
   bool index = false;
   std::optional<replay::SigningKey> signing_key = std::nullopt;
@@ -45,6 +47,18 @@ class ToyInputs {
   ToyConfig config_;
   Bytes bytes_;
   std::vector<PlayerInput> inputs_;
+};
+
+/// The commands of a tick of the match: of a player, and every other time one of the server's.
+class ToyCommands {
+ public:
+  explicit ToyCommands(const ToyMatch& match) : match_(match) {}
+  [[nodiscard]] std::span<const PlayerCommand> at(std::uint64_t tick);
+
+ private:
+  const ToyMatch& match_;
+  Bytes bytes_;
+  std::vector<PlayerCommand> commands_;
 };
 
 /// Plays and records. Returns the recorder's first bad status.

@@ -238,7 +238,7 @@ TEST(Recorder, RefusesInformationOutOfRange) {
     return Recorder(sink).begin(info, {}, {.start_tick = start_tick});
   };
   SimulationInfo info = good;
-  info.player_count = 17;
+  info.player_count = k_max_players + 1;
   EXPECT_EQ(begins(info, 0), Status::invalid_argument);
   info = good;
   info.input_bytes = 65;

@@ -1,5 +1,6 @@
 #include "tools/arena/arena_game.h"
 
+#include "tools/arena/arena_command.h"
 #include "tools/arena/arena_simulation.h"
 #include "tools/arena/bots.h"
 
@@ -45,6 +46,8 @@ GameDef arena_game() {
   game.scenes = {{"arena", "four bots play among 216 bodies", k_golden_ticks}};
   game.bot = press;
   game.world = world_of;
+  game.chat_command = chat_command;
+  game.chat_text = chat_text;
   return game;
 }
 

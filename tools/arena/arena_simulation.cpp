@@ -5,6 +5,7 @@
 
 #include <lockstone/hash.h>
 
+#include "tools/arena/arena_command.h"
 #include "tools/arena/input.h"
 #include "tools/arena/level.h"
 #include "tools/arena/rules.h"
@@ -44,6 +45,14 @@ ArenaSimulation::ArenaSimulation(const ArenaConfig& config, BroadPhaseKind broad
 void ArenaSimulation::step(std::span<const PlayerInput> inputs) {
   LKS_CHECK(inputs.size() == arena_.config.players);
   last_report_ = advance(arena_, inputs);
+}
+
+void ArenaSimulation::command(const PlayerCommand& command) {
+  const std::optional<std::uint8_t> to = gift_slot(command.bytes);
+  const std::size_t players = arena_.config.players;
+  if (!to || *to >= players || command.slot >= players) return;
+  add_score(arena_.state.players[command.slot], -1);
+  add_score(arena_.state.players[*to], 1);
 }
 
 std::size_t ArenaSimulation::snapshot_bytes_max(SnapshotKind kind) const {

@@ -167,10 +167,12 @@ WorldDef world_def(const ArenaConfig& config) {
 }
 
 Vec3<Position> spawn_point(std::size_t slot) {
-  // Two rows of eight beyond the hill's ends of the field.
-  const auto place = static_cast<std::int32_t>(slot / 2);
+  // Rows of eight beyond the hill's ends of the field, each further two behind the ones before.
+  constexpr std::size_t k_pair_of_rows = 16;
+  const auto place = static_cast<std::int32_t>(slot % k_pair_of_rows / 2);
   const std::int32_t along = (place % 2 == 0 ? 1 : -1) * (1250 + place / 2 * 2500);
-  return {millimetres(along), millimetres(4000), millimetres(slot % 2 == 0 ? 7000 : -7000)};
+  const std::int32_t across = 7000 + static_cast<std::int32_t>(slot / k_pair_of_rows) * 2500;
+  return {millimetres(along), millimetres(4000), millimetres(slot % 2 == 0 ? across : -across)};
 }
 
 Arena build_arena(const ArenaConfig& config, BroadPhaseKind broad_phase) {

@@ -273,7 +273,7 @@ const SimulationFactory& TrialMatch::factory() const {
 std::uint64_t TrialMatch::ticks_confirmed() const {
   return impl_->server->ticks_confirmed();
 }
-std::uint16_t TrialMatch::present_mask() const {
+net::SlotMask TrialMatch::present_mask() const {
   return impl_->server->present_mask();
 }
 std::int64_t TrialMatch::longest_server_gap_us() const {

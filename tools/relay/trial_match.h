@@ -61,7 +61,7 @@ class TrialMatch {
   [[nodiscard]] PlayerOutcome outcome(unsigned slot) const;
   [[nodiscard]] std::uint64_t ticks_confirmed() const;
   [[nodiscard]] const SimulationFactory& factory() const;  ///< of the game that is played
-  [[nodiscard]] std::uint16_t present_mask() const;
+  [[nodiscard]] net::SlotMask present_mask() const;
   [[nodiscard]] std::int64_t longest_server_gap_us() const;  ///< between two confirmed ticks
   /// How often the server was busy for more than k_stall_us at a stretch: its own processor time.
   [[nodiscard]] unsigned server_stalls() const;

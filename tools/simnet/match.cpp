@@ -53,6 +53,7 @@ class SimMatch final : public net::ServerObserver {
 
   void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                       std::optional<std::uint64_t> hash) override;
+  void commands_confirmed(std::uint64_t tick, std::span<const PlayerCommand> commands) override;
   void match_started() override { faults_.begin(now_us_); }
   void match_finished(net::FinishReason, std::uint64_t, std::optional<std::uint64_t>) override {
     oracle_.set_over();
@@ -255,6 +256,11 @@ void SimMatch::tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> i
                               std::optional<std::uint64_t> hash) {
   oracle_.confirmed(tick, inputs, hash);
   if (hash) log_.record(tick, inputs, *hash, *simulation_);
+}
+
+void SimMatch::commands_confirmed(std::uint64_t, std::span<const PlayerCommand> commands) {
+  oracle_.commands_confirmed(commands);
+  if (simulation_ != nullptr) log_.commands(commands);
 }
 
 void SimMatch::player_left(std::uint8_t slot, net::LeaveReason reason) {

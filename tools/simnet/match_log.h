@@ -34,6 +34,11 @@ class MatchLog {
   void record(std::uint64_t tick, std::span<const PlayerInput> inputs, std::uint64_t hash,
               const Simulation& simulation);
 
+  /// Of the tick that is recorded next.
+  void commands(std::span<const PlayerCommand> commands) {
+    static_cast<void>(recorder_.record_commands(commands));
+  }
+
   void set_full(bool full) { disk_.full = full; }
 
   /// The fault of the log; empty: it has none.

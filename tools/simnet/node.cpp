@@ -2,6 +2,9 @@
 
 #include <string>
 #include <utility>
+#include <vector>
+
+#include <lockstone/hash.h>
 
 #include "tools/toy/toy_simulation.h"
 
@@ -39,7 +42,22 @@ void Node::kill(net::SimNetwork& network) {
 
 void Node::update(std::int64_t span_us) {
   clock_.advance(span_us, skew_ppm_);
-  if (client_ != nullptr && !paused_) client_->update(clock_.now_us());
+  if (client_ == nullptr || paused_) return;
+  client_->update(clock_.now_us());
+  talk();
+}
+
+// Now and then a command, a few of them long. Where it cannot be sent, it is not.
+void Node::talk() {
+  constexpr std::uint64_t k_mean_ticks = 100;
+  if (std::exchange(ticks_.talked, ticks_.stepped) == ticks_.stepped) return;
+  std::uint64_t draw = hash64({}, seed_ * 64 + index_ + (ticks_.stepped << 20));
+  if (draw % k_mean_ticks != 0) return;
+  draw /= k_mean_ticks;
+  std::vector<std::byte> bytes(1 + (draw % 16 == 0 ? draw % 20'000 : draw % 100));
+  for (std::byte& byte : bytes)
+    byte = static_cast<std::byte>(draw++);
+  static_cast<void>(client_->send_command(bytes));
 }
 
 std::uint64_t Node::refused_packets() const {
@@ -60,7 +78,7 @@ void Node::sample(std::uint64_t tick, std::span<std::byte> out) {
 
 void Node::tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
                         std::uint64_t hash) {
-  ++ticks_;
+  ++ticks_.stepped;
   oracle_.stepped(index_, tick, inputs, hash);
   if (!oracle_.over() && tick + delay_ticks_ >= oracle_.ticks()) {
     oracle_.fail("tick " + std::to_string(tick) + ": a spectator saw it too early");

@@ -34,6 +34,12 @@ struct FormerLives {
   std::uint64_t resends = 0;
 };
 
+/// How many ticks a client has stepped, now and when it last thought of giving a command.
+struct TickCounts {
+  std::uint64_t stepped = 0;
+  std::uint64_t talked = 0;
+};
+
 /// Runs a client on its own clock, plays scripted inputs, and shows every tick to the oracle.
 class Node final : public net::ClientObserver, public net::InputSource {
  public:
@@ -57,7 +63,7 @@ class Node final : public net::ClientObserver, public net::InputSource {
   [[nodiscard]] bool alive() const { return client_ != nullptr; }
   [[nodiscard]] const net::Client& client() const { return *client_; }
   [[nodiscard]] net::SimTransport& endpoint() const { return *endpoint_; }
-  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_.stepped; }
   [[nodiscard]] std::uint64_t refused_packets() const;
   [[nodiscard]] std::uint64_t resends() const;
   [[nodiscard]] std::uint64_t rollbacks() const;
@@ -71,6 +77,8 @@ class Node final : public net::ClientObserver, public net::InputSource {
                     std::uint64_t hash) override;
 
  private:
+  void talk();
+
   std::size_t index_;
   std::uint64_t seed_;
   std::uint8_t input_bytes_;
@@ -82,7 +90,7 @@ class Node final : public net::ClientObserver, public net::InputSource {
   std::unique_ptr<SealedTransport> sealed_;
   std::unique_ptr<LyingTransport> lying_;
   std::unique_ptr<net::Client> client_;
-  std::uint64_t ticks_ = 0;
+  TickCounts ticks_;
   std::uint32_t delay_ticks_ = 0;
   std::uint64_t rejoin_key_ = 0;  ///< survives the process, as in a file
   FormerLives before_;

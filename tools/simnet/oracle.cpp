@@ -25,6 +25,11 @@ Oracle::Oracle(std::unique_ptr<Simulation> reference, std::uint64_t expected_tic
   truth_.reserve(static_cast<std::size_t>(expected_ticks));
 }
 
+void Oracle::commands_confirmed(std::span<const PlayerCommand> commands) {
+  for (const PlayerCommand& command : commands)
+    reference_->command(command);
+}
+
 void Oracle::confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                        std::optional<std::uint64_t> hash) {
   if (tick != truth_.size()) {

@@ -20,6 +20,8 @@ class Oracle {
   /// snapshot forgets shows.
   Oracle(std::unique_ptr<Simulation> reference, std::uint64_t expected_ticks);
 
+  /// Of the tick that is confirmed next.
+  void commands_confirmed(std::span<const PlayerCommand> commands);
   void confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                  std::optional<std::uint64_t> hash);
   void stepped(std::size_t client, std::uint64_t tick, std::span<const PlayerInput> inputs,

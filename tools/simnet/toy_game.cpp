@@ -1,5 +1,6 @@
 #include "tools/simnet/toy_game.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -53,6 +54,7 @@ Game make_toy_game(std::uint64_t seed, std::size_t clients, std::uint64_t ticks,
   toy::ToyConfig config;
   config.seed = seed;
   config.player_count = static_cast<std::uint8_t>(clients);
+  config.body_count = std::max<std::uint16_t>(config.body_count, config.player_count);
   Game game;
   game.config = config.encode();
   game.factory = toy::toy_factory();

@@ -85,6 +85,11 @@ void step(void* match, const lockstone_game_input* inputs, std::size_t count) no
   simulation.step(Inputs(simulation, inputs, count).list());
 }
 
+void command(void* match, std::uint32_t slot, const std::uint8_t* bytes,
+             std::size_t size) noexcept {
+  simulation_of(match).command({static_cast<std::uint8_t>(slot), view_of(bytes, size)});
+}
+
 std::size_t snapshot_bytes_max(const void* match, std::uint32_t kind) noexcept {
   return simulation_of(match).snapshot_bytes_max(kind_of(kind));
 }
@@ -215,7 +220,8 @@ void fill_table(Library& library) {
                    .scenes = library.scenes.data(),
                    .scene_count = library.scenes.size(),
                    .keep_history = keep_history,
-                   .forget_history = forget_history};
+                   .forget_history = forget_history,
+                   .command = command};
 }
 
 }  // namespace

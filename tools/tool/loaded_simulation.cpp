@@ -91,6 +91,11 @@ void LoadedSimulation::step(std::span<const PlayerInput> inputs) {
   table_->step(match_, pass(inputs), inputs.size());
 }
 
+void LoadedSimulation::command(const PlayerCommand& command) {
+  if (table_->command == nullptr) return;
+  table_->command(match_, command.slot, bytes_of(command.bytes), command.bytes.size());
+}
+
 std::size_t LoadedSimulation::snapshot_bytes_max(SnapshotKind kind) const {
   return table_->snapshot_bytes_max(match_, number_of(kind));
 }

@@ -38,6 +38,7 @@ class LoadedSimulation final : public Simulation, public SelfTracing {
   [[nodiscard]] SimulationInfo info() const override { return info_; }
   [[nodiscard]] std::uint64_t tick() const override { return table_->tick(match_); }
   void step(std::span<const PlayerInput> inputs) override;
+  void command(const PlayerCommand& command) override;
   [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override;
   [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override;
   Status load(SnapshotKind kind, ByteView bytes) override;

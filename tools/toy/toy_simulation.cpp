@@ -169,6 +169,13 @@ void ToySimulation::step(std::span<const PlayerInput> inputs) {
   ++words_[k_tick];
 }
 
+void ToySimulation::command(const PlayerCommand& command) {
+  words_[k_random] = mix(words_[k_random] ^ hash64(command.bytes, command.slot));
+  if (command.slot >= config_.player_count) return;
+  words_[k_world_fields.size() + command.slot * k_player_fields.size() + k_score] +=
+      command.bytes.size() / 1000;
+}
+
 void ToySimulation::apply_input(std::size_t slot, const PlayerInput& input) {
   LKS_CHECK(input.bytes.size() == config_.input_bytes);
   std::uint64_t* player = &words_[k_world_fields.size() + slot * k_player_fields.size()];

@@ -37,6 +37,8 @@ class ToySimulation : public Simulation {
   [[nodiscard]] SimulationInfo info() const override { return info_; }
   [[nodiscard]] std::uint64_t tick() const override { return words_[0]; }
   void step(std::span<const PlayerInput> inputs) override;
+  /// Changes the world's random number, and gives a player a point for each 1000 bytes.
+  void command(const PlayerCommand& command) override;
   [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override;
   [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override;
   Status load(SnapshotKind kind, ByteView bytes) override;

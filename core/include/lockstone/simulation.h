@@ -21,7 +21,7 @@
 namespace lockstone {
 
 /// Bound on the player slots of a match, and on the bytes of one player's input for one tick.
-inline constexpr std::size_t k_max_players = 16;
+inline constexpr std::size_t k_max_players = 64;
 inline constexpr std::size_t k_max_input_bytes = 64;
 
 /// Two peers must agree on all of this before they play.
@@ -51,6 +51,19 @@ enum class InputOrigin : std::uint8_t {
 struct PlayerInput {
   ByteView bytes;
   InputOrigin origin = InputOrigin::received;
+};
+
+/// Bound on the bytes of one player command.
+inline constexpr std::size_t k_max_command_bytes = 64 * 1024;
+
+/// The slot of commands that come from the server itself.
+inline constexpr std::uint8_t k_server_slot = 253;
+
+/// Bytes that change a game but are not the input of a tick: a line of chat, a purchase, a build
+/// order. The server binds each command to a tick.
+struct PlayerCommand {
+  std::uint8_t slot = 0;  ///< of the player that gave it, or k_server_slot
+  ByteView bytes;         ///< 1 … k_max_command_bytes
 };
 
 enum class SnapshotKind : std::uint8_t {
@@ -105,6 +118,10 @@ class Simulation {
   /// Advances by one tick. `inputs` has info().player_count entries in slot order.
   virtual void step(std::span<const PlayerInput> inputs) = 0;
 
+  /// A command of the next tick. Called right before `step`, on every peer in the same order, and
+  /// only for confirmed ticks. The bytes come from outside, as those of inputs. Must not allocate.
+  virtual void command(const PlayerCommand& /*command*/) {}
+
   /// An upper bound on the bytes that `save` writes, constant over the match.
   [[nodiscard]] virtual std::size_t snapshot_bytes_max(SnapshotKind kind) const = 0;
 
@@ -135,6 +152,14 @@ class Simulation {
   /// Compares two canonical snapshots of this simulation. For people: may allocate, may be slow.
   [[nodiscard]] virtual StateDifference describe(ByteView here, ByteView there) const = 0;
 };
+
+/// Advances by one tick with its commands.
+inline void step_tick(Simulation& simulation, std::span<const PlayerInput> inputs,
+                      std::span<const PlayerCommand> commands) {
+  for (const PlayerCommand& command : commands)
+    simulation.command(command);
+  simulation.step(inputs);
+}
 
 /// Makes a simulation at tick 0 from the game's own configuration bytes (scene, seed, rules). The
 /// same bytes give the same simulation everywhere; bytes that the game does not know give an error.

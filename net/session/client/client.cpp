@@ -58,10 +58,13 @@ FinishReason Client::finish_reason() const {
 std::uint8_t Client::slot() const {
   return impl_->data.place.seated ? impl_->data.place.welcome.slot : k_no_slot;
 }
+std::string_view Client::player_name(std::uint8_t slot) const {
+  return slot < k_max_players ? impl_->data.names[slot].view() : std::string_view();
+}
 std::uint64_t Client::ticks_stepped() const {
   return impl_->data.progress.stepped;
 }
-std::uint16_t Client::waiting_mask() const {
+SlotMask Client::waiting_mask() const {
   return impl_->data.status.waiting;
 }
 std::uint64_t Client::ticks_predicted() const {
@@ -92,6 +95,9 @@ Simulation* Client::simulation() const {
 ClientStats Client::stats() const {
   return current_stats(impl_->data);
 }
+Result<std::uint64_t> Client::send_command(ByteView bytes) {
+  return impl_->commands.give(bytes);
+}
 void Client::leave() {
   if (impl_->data.status.active()) impl_->end.leave();
 }
@@ -102,10 +108,11 @@ Client::Impl::Impl(const ClientConfig& config, ClientParts parts)
       playback(data, prediction),
       receiver(data),
       sender(data),
+      commands(data),
       dump(data, prediction),
       end(data, playback),
       entry(data, prediction, sender),
-      handshake(data, {prediction, entry, dump, end}) {}
+      handshake(data, {prediction, entry, dump, commands, end}) {}
 
 void Client::Impl::update(std::int64_t now_us) {
   LKS_ASSERT(!updated || now_us >= data.status.now_us);
@@ -115,7 +122,10 @@ void Client::Impl::update(std::int64_t now_us) {
   if (data.status.active()) watch_server();
   if (data.status.state == ClientState::running) play();
   const ClientState state = data.status.state;
-  if (state >= ClientState::lobby && state <= ClientState::running) sender.send_due();
+  if (state >= ClientState::lobby && state <= ClientState::running) {
+    commands.send_pieces();
+    sender.send_due();
+  }
   data.server.flush();
 }
 
@@ -187,6 +197,12 @@ bool Client::Impl::dispatch(ByteView packet) {
       return entry.on_activate(packet);
     case MessageType::paused:
       return on_paused(packet);
+    case MessageType::tick_command:
+      return commands.on_tick_command(packet);
+    case MessageType::command_result:
+      return commands.on_result(packet);
+    case MessageType::named:
+      return on_named(packet);
     case MessageType::finish:
       return end.on_finish(packet);
     case MessageType::bye:
@@ -249,6 +265,7 @@ bool Client::Impl::on_desync(ByteView packet) {
   DesyncReport report;
   report.tick = notice.tick;
   report.slot = notice.slot;
+  report.name = data.names[notice.slot].view();
   report.verdict = notice.verdict;
   report.hash_here = notice.hash_here;
   report.hash_there = notice.hash_there;
@@ -271,15 +288,27 @@ bool Client::Impl::on_paused(ByteView packet) {
   return true;
 }
 
+bool Client::Impl::on_named(ByteView packet) {
+  Named message;
+  if (decode(packet, message) != Status::ok || !data.place.seated) return false;
+  if (message.slot >= data.game.info.player_count) return false;
+  data.names[message.slot] = message.name;
+  data.observer->player_named(message.slot, message.name.view());
+  return true;
+}
+
 void ClientObserver::joined(std::uint8_t) {}
 void ClientObserver::match_started() {}
 void ClientObserver::tick_stepped(std::uint64_t, std::span<const PlayerInput>, std::uint64_t) {}
+void ClientObserver::commands_stepped(std::uint64_t, std::span<const PlayerCommand>) {}
+void ClientObserver::command_refused(std::uint64_t) {}
 void ClientObserver::server_silent(std::int64_t) {}
 void ClientObserver::desync_reported(const DesyncReport&) {}
 void ClientObserver::match_finished(FinishReason, std::uint64_t) {}
 void ClientObserver::state_loaded(std::uint64_t) {}
 void ClientObserver::player_active(std::uint8_t, std::uint64_t) {}
 void ClientObserver::pause_changed(bool) {}
+void ClientObserver::player_named(std::uint8_t, std::string_view) {}
 void ClientObserver::input_replaced(std::uint64_t) {}
 void ClientObserver::tick_predicted(std::uint64_t, std::span<const PlayerInput>) {}
 void ClientObserver::rolled_back(std::uint64_t, std::uint64_t) {}

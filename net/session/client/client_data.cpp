@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "net/session/parts_judge.h"
+#include "net/wire/tick_record.h"
 
 namespace lockstone::net {
 
@@ -10,8 +11,14 @@ ClientData::ClientData(const ClientConfig& client_config, ClientParts client_par
     : config(client_config),
       parts(std::move(client_parts)),
       observer(parts.observer == nullptr ? &silent_observer : parts.observer),
-      server(*parts.transport, parts.connection) {
+      server(*parts.transport, parts.connection),
+      commands(k_waiting_command_bytes) {
   place.rejoin_key = config.rejoin_key;
+}
+
+bool is_complete(const ClientData& data, std::uint64_t tick) {
+  const ByteView record = data.ticks.find(tick);
+  return !record.empty() && data.commands.has(tick, command_count(record));
 }
 
 void note_parts(ClientData& data) {

@@ -2,6 +2,7 @@
 // simulation and the ticks of the match. Parts refer to it; it knows none of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "net/session/client/own_inputs.h"
 #include "net/session/client/server_connection.h"
 #include "net/session/client/tick_buffer.h"
+#include "net/session/command_buffer.h"
 #include "net/session/lead_control.h"
 #include "net/session/playout_clock.h"
 #include "net/session/tick_ring.h"
@@ -27,8 +29,8 @@ struct ClientStatus {
   Refusal refusal;
   std::int64_t now_us = 0;
   bool paused = false;
-  bool over = false;          ///< the match is: nothing is kept back
-  std::uint16_t waiting = 0;  ///< bit n: the match waits for slot n
+  bool over = false;     ///< the match is: nothing is kept back
+  SlotMask waiting = 0;  ///< bit n: the match waits for slot n
 
   /// Neither finished nor refused nor failed.
   [[nodiscard]] bool active() const { return state < ClientState::finished; }
@@ -50,7 +52,7 @@ struct ClientPlace {
   bool seated = false;
   std::uint64_t rejoin_key = 0;
   std::uint64_t active_tick = k_never;  ///< own inputs count from here on
-  std::uint16_t present_mask = 0;       ///< at the start
+  SlotMask present_mask = 0;            ///< at the start
 
   [[nodiscard]] bool spectates() const { return welcome.slot == k_spectator_slot; }
   [[nodiscard]] bool plays() const { return active_tick != k_never; }
@@ -83,11 +85,16 @@ struct ClientData {
   ClientGame game;
   ClientProgress progress;
   TickBuffer ticks;
+  TickCommands commands;  ///< of ticks that come next
   OwnInputs inputs;
   PlayoutClock playout;
   LeadControl lead;
-  ClientStats stats;  ///< without those that current_stats adds
+  std::array<PlayerName, k_max_players> names;  ///< by slot, as far as the server told them
+  ClientStats stats;                            ///< without those that current_stats adds
 };
+
+/// The record of `tick` is here, and so are the tick's commands.
+[[nodiscard]] bool is_complete(const ClientData& data, std::uint64_t tick);
 
 /// Notes the hashes of parts of the simulation's state, if they are due. Called after every step.
 void note_parts(ClientData& data);

@@ -6,6 +6,7 @@
 
 #include <lockstone/net/client.h>
 
+#include "net/session/client/client_commands.h"
 #include "net/session/client/client_data.h"
 #include "net/session/client/client_end.h"
 #include "net/session/client/dump_sender.h"
@@ -32,6 +33,7 @@ struct Client::Impl {
   Playback playback;
   TickReceiver receiver;
   InputSender sender;
+  ClientCommands commands;
   DumpSender dump;
   ClientEnd end;
   MatchEntry entry;
@@ -50,6 +52,7 @@ struct Client::Impl {
   void play();
   [[nodiscard]] bool on_desync(ByteView packet);
   [[nodiscard]] bool on_paused(ByteView packet);
+  [[nodiscard]] bool on_named(ByteView packet);
 };
 
 }  // namespace lockstone::net

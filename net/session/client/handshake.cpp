@@ -18,7 +18,7 @@ void Handshake::say_hello() {
   Hello hello;
   hello.insecure = data_.config.insecure;
   hello.wanted_slot = seated_before ? place.welcome.slot : data_.config.wanted_slot;
-  hello.name = NameText(data_.config.name);
+  hello.name = PlayerName(data_.config.name);
   hello.build = BuildText(data_.config.build);
   hello.rejoin_key = place.rejoin_key;
   hello.ticks_stepped = data_.progress.stepped;
@@ -68,6 +68,7 @@ void Handshake::reserve_memory() {
   const bool predicts = data_.predicts();
   data_.ticks = TickBuffer(config.history_ticks, game.shape.record_bytes());
   data_.inputs = OwnInputs(game.info.input_bytes);
+  uses_.commands.reserve();
   data_.progress.hashes = HashRing(config.history_ticks);
   data_.progress.snapshots =
       TickRing(keeps && !predicts ? config.snapshot_ticks : 0, snapshot_bytes);
@@ -89,6 +90,7 @@ bool Handshake::on_welcome(ByteView packet) {
   data_.place.rejoin_key = welcome.rejoin_key;
   data_.lead = LeadControl(data_.config.max_lead_ticks);
   data_.inputs.begin(welcome.input_delay_ticks);
+  uses_.commands.begin(welcome.commands_taken);
   status.state = welcome.entry == Entry::lobby ? ClientState::lobby : ClientState::joining;
   data_.observer->joined(welcome.slot);
   if (welcome.entry == Entry::ticks) uses_.entry.begin(stepped);

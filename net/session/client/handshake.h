@@ -6,6 +6,7 @@
 
 #include <lockstone/bytes.h>
 
+#include "net/session/client/client_commands.h"
 #include "net/session/client/client_data.h"
 #include "net/session/client/client_end.h"
 #include "net/session/client/dump_sender.h"
@@ -23,6 +24,7 @@ class Handshake {
     Prediction& prediction;
     MatchEntry& entry;
     DumpSender& dump;
+    ClientCommands& commands;
     ClientEnd& end;
   };
   Handshake(ClientData& data, const Uses& uses) : data_(data), uses_(uses) {}

@@ -12,6 +12,7 @@ void MatchEntry::begin(std::uint64_t ticks) {
   data_.status.state = ClientState::running;
   data_.progress.stepped = ticks;
   data_.ticks.restart(ticks, now_us);
+  data_.commands.clear();
   data_.progress.hashes.restart(ticks);
   data_.progress.hashes_acknowledged = ticks;
   sender_.restart(ticks);
@@ -26,9 +27,7 @@ bool MatchEntry::on_start(ByteView packet) {
   if (data_.status.state != ClientState::lobby) return false;
   begin(0);
   ClientPlace& place = data_.place;
-  const bool plays = place.welcome.slot < k_max_players;
-  const bool present = plays && ((start.present_mask >> place.welcome.slot) & 1) != 0;
-  if (present) place.active_tick = 0;
+  if (has_slot(start.present_mask, place.welcome.slot)) place.active_tick = 0;
   place.present_mask = start.present_mask;
   data_.observer->match_started();
   return true;

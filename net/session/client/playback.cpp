@@ -29,6 +29,7 @@ void Playback::step_ticks(std::uint64_t limit) {
     const std::uint64_t unheard = stepped - std::min(stepped, progress.hashes_acknowledged);
     const bool stalls = !data_.place.spectates() && unheard >= limit;
     if (stepped == data_.ticks.received() || stalls || !is_due(stepped)) return;
+    if (!is_complete(data_, stepped)) return;
     note_stepped(data_.predicts() ? prediction_.confirm_next() : step_next());
   }
 }
@@ -55,7 +56,7 @@ bool Playback::is_due(std::uint64_t tick) const {
 std::uint64_t Playback::step_next() {
   const RecordInputs inputs(data_.ticks.find(data_.progress.stepped), data_.game.shape);
   Simulation& simulation = *data_.game.simulation;
-  simulation.step(inputs.view());
+  step_tick(simulation, inputs.view(), data_.commands.of(data_.progress.stepped));
   note_parts(data_);
   return simulation.hash();
 }
@@ -76,7 +77,12 @@ void Playback::note_stepped(std::uint64_t hash) {
   const bool reports = parts.ticks == progress.stepped && parts.count > 0;
   if (reports && !data_.place.spectates()) data_.server.send(parts);
   const RecordInputs inputs(data_.ticks.find(tick), data_.game.shape);
+  const std::span<const PlayerCommand> commands = data_.commands.of(tick);
+  if (!commands.empty()) data_.observer->commands_stepped(tick, commands);
   data_.observer->tick_stepped(tick, inputs.view(), hash);
+  // The test of prediction steps the last ticks again.
+  data_.commands.forget_before(
+      progress.stepped - std::min<std::uint64_t>(progress.stepped, data_.config.prediction_ticks));
   if (!data_.place.spectates()) {
     note_replaced_input(tick, inputs.view()[data_.place.welcome.slot].origin);
   }

@@ -31,9 +31,9 @@ void Prediction::keep_state() {
   states_.commit(head_, simulation.save(SnapshotKind::native, states_.claim(head_)));
 }
 
-std::uint64_t Prediction::step(ByteView record) {
+std::uint64_t Prediction::step(ByteView record, std::span<const PlayerCommand> commands) {
   Simulation& simulation = *data_.game.simulation;
-  simulation.step(RecordInputs(record, data_.game.shape).view());
+  step_tick(simulation, RecordInputs(record, data_.game.shape).view(), commands);
   ++head_;
   note_parts(data_);
   keep_state();
@@ -68,7 +68,7 @@ std::uint64_t Prediction::confirm_next() {
   if (guessed_right()) return guess_hashes_[static_cast<std::size_t>(tick % guess_hashes_.size())];
   drop_guesses();
   LKS_ASSERT(head_ == tick);
-  return step(data_.ticks.find(tick));
+  return step(data_.ticks.find(tick), data_.commands.of(tick));
 }
 
 void Prediction::advance() {
@@ -89,7 +89,7 @@ void Prediction::predict_one() {
     guess_slot(record, slot);
   guesses_.commit(head_, record.size());
   const std::uint64_t tick = head_;
-  const std::uint64_t hash = step(record);
+  const std::uint64_t hash = step(record, {});  // commands are never guessed
   guess_hashes_[static_cast<std::size_t>(tick % guess_hashes_.size())] = hash;
   data_.observer->tick_predicted(tick, RecordInputs(record, data_.game.shape).view());
 }
@@ -102,7 +102,7 @@ void Prediction::guess_slot(std::span<std::byte> record, std::uint8_t slot) {
   const std::span<std::byte> input = std::span(bytes).first(shape.input_bytes);
   const std::uint64_t stepped = data_.progress.stepped;
   const ByteView known = stepped == 0 ? ByteView{} : data_.ticks.find(stepped - 1);
-  const bool present = ((place.present_mask >> slot) & 1) != 0;
+  const bool present = has_slot(place.present_mask, slot);
   InputOrigin origin = present ? InputOrigin::received : InputOrigin::absent;
   if (!known.empty()) {
     const PlayerInput last = get_slot(known, shape, slot);
@@ -144,7 +144,8 @@ bool Prediction::repeats(std::uint64_t from) {
   Simulation& simulation = *data_.game.simulation;
   LKS_CHECK(simulation.load(SnapshotKind::native, states_.find(from)) == Status::ok);
   for (std::uint64_t tick = from; tick < data_.progress.stepped; ++tick) {
-    simulation.step(RecordInputs(data_.ticks.find(tick), data_.game.shape).view());
+    step_tick(simulation, RecordInputs(data_.ticks.find(tick), data_.game.shape).view(),
+              data_.commands.of(tick));
     if (simulation.hash() != data_.progress.hashes.at(tick)) return false;
   }
   return true;

@@ -53,7 +53,7 @@ class Prediction {
  private:
   void keep_state();
   [[nodiscard]] bool repeats(std::uint64_t from);
-  [[nodiscard]] std::uint64_t step(ByteView record);
+  [[nodiscard]] std::uint64_t step(ByteView record, std::span<const PlayerCommand> commands);
   [[nodiscard]] bool guessed_right() const;
   void roll_back(std::uint64_t tick);
   void predict_one();

@@ -20,11 +20,16 @@ class ServerConnection {
   /// A new connection instead of one that was lost.
   void replace(ConnectionId connection) { connection_ = connection; }
 
+  template <class Message>
+  Status try_send(const Message& message, Channel channel = Channel::reliable) {
+    const std::size_t size = encode(message, message_);
+    return transport_->send(connection_, channel, ByteView(message_).first(size));
+  }
+
   /// A full queue shows as silence, and silence as a time-out.
   template <class Message>
   void send(const Message& message, Channel channel = Channel::reliable) {
-    const std::size_t size = encode(message, message_);
-    static_cast<void>(transport_->send(connection_, channel, ByteView(message_).first(size)));
+    static_cast<void>(try_send(message, channel));
   }
 
   void disconnect() { transport_->disconnect(connection_); }

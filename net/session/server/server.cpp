@@ -65,14 +65,18 @@ FinishReason Server::finish_reason() const {
 std::uint64_t Server::ticks_confirmed() const {
   return impl_->data.match.confirmed;
 }
-std::uint16_t Server::present_mask() const {
+SlotMask Server::present_mask() const {
   return impl_->data.roster.present_mask();
 }
-std::uint16_t Server::waiting_mask() const {
+SlotMask Server::waiting_mask() const {
   return impl_->data.match.waiting;
 }
 PlayerStats Server::stats(std::uint8_t slot) const {
   return player_stats(impl_->data, slot);
+}
+std::string_view Server::player_name(std::uint8_t slot) const {
+  if (!impl_->data.roster.is_slot(slot)) misused("Server: the slot must be below the player count");
+  return impl_->data.roster.seat(slot).name.view();
 }
 bool Server::paused() const {
   return impl_->data.match.paused;
@@ -82,6 +86,9 @@ void Server::pause() {
 }
 void Server::resume() {
   impl_->set_paused(false);
+}
+Status Server::send_command(ByteView bytes) {
+  return impl_->taking.commands.give(bytes);
 }
 void Server::stop() {
   impl_->stop();
@@ -104,14 +111,14 @@ Server::Impl::Impl(const ServerConfig& config, const ServerParts& parts)
       departures(data, cases, end),
       states(data, dumps, cases),
       entry(data, states, departures),
-      sender(data),
-      spectators(data, {states, entry, sender, departures}),
+      sending(data),
+      spectators(data, {states, entry, sending.ticks, departures}),
       admission(data, departures, entry, spectators),
       response(data, {dumps, cases, states, entry, departures, end}),
       comparison(data, cases, response),
-      inputs(data),
+      taking(data),
       laggards(data, states, departures),
-      confirmer(data, {cases, states, inputs, laggards, end}) {}
+      confirmer(data, {cases, states, taking.inputs, taking.commands, laggards, end}) {}
 
 void Server::Impl::update(std::int64_t now_us) {
   MatchStatus& match = data.match;
@@ -132,7 +139,8 @@ void Server::Impl::update(std::int64_t now_us) {
   response.advance();
   if (match.state == ServerState::finishing) end.try_finish();
   if (match.state == ServerState::closing) departures.close_all();
-  sender.send_to_players();
+  sending.ticks.send_to_players();
+  sending.commands.send();
   spectators.serve();
   data.parts.transport->flush();
 }
@@ -188,15 +196,17 @@ bool Server::Impl::dispatch(Peer& peer, ByteView packet) {
     case MessageType::answer:
       return peer.stage == Stage::offered && admission.on_answer(peer, packet);
     case MessageType::inputs:
-      return peer.is_admitted() && inputs.on_inputs(peer, packet);
+      return peer.is_admitted() && taking.inputs.on_inputs(peer, packet);
     case MessageType::resend:
-      return peer.is_admitted() && sender.on_resend(peer, packet);
+      return peer.is_admitted() && sending.ticks.on_resend(peer, packet);
     case MessageType::dump:
       return peer.stage == Stage::seated && on_dump(peer, packet);
     case MessageType::snapshot_taken:
       return peer.is_admitted() && entry.on_snapshot_taken(peer, packet);
     case MessageType::parts:
       return peer.stage == Stage::seated && comparison.on_parts(peer, packet);
+    case MessageType::command:
+      return peer.stage == Stage::seated && taking.commands.on_command(peer, packet);
     case MessageType::ask:
       return peer.stage == Stage::seated && on_ask(peer, packet);
     case MessageType::bye:
@@ -235,6 +245,7 @@ bool Server::Impl::on_bye(Peer& peer, ByteView packet) {
 
 void ServerObserver::tick_confirmed(std::uint64_t, std::span<const PlayerInput>,
                                     std::optional<std::uint64_t>) {}
+void ServerObserver::commands_confirmed(std::uint64_t, std::span<const PlayerCommand>) {}
 void ServerObserver::hash_agreed(std::uint64_t, std::uint64_t) {}
 void ServerObserver::player_joined(std::uint8_t, std::string_view) {}
 void ServerObserver::player_left(std::uint8_t, LeaveReason) {}

@@ -8,6 +8,7 @@
 
 #include "net/session/server/comparison/desync_response.h"
 #include "net/session/server/comparison/state_comparison.h"
+#include "net/session/server/data/command_sender.h"
 #include "net/session/server/data/server_data.h"
 #include "net/session/server/data/tick_sender.h"
 #include "net/session/server/desync/desync_cases.h"
@@ -18,6 +19,7 @@
 #include "net/session/server/entry/spectators.h"
 #include "net/session/server/leaving/departures.h"
 #include "net/session/server/leaving/match_end.h"
+#include "net/session/server/ticks/command_intake.h"
 #include "net/session/server/ticks/input_intake.h"
 #include "net/session/server/ticks/laggards.h"
 #include "net/session/server/ticks/tick_confirmer.h"
@@ -26,6 +28,17 @@ namespace lockstone::net {
 
 /// An update receives, calls the parts in a fixed order, and sends.
 struct Server::Impl {
+  struct Sending {
+    explicit Sending(ServerData& data) : ticks(data), commands(data) {}
+    TickSender ticks;
+    CommandSender commands;
+  };
+  struct Taking {
+    explicit Taking(ServerData& data) : inputs(data), commands(data) {}
+    InputIntake inputs;
+    CommandIntake commands;
+  };
+
   Impl(const ServerConfig& config, const ServerParts& parts);
 
   void update(std::int64_t now_us);
@@ -43,7 +56,7 @@ struct Server::Impl {
   // Entering a match.
   EntryStates states;
   PlayerEntry entry;
-  TickSender sender;
+  Sending sending;
   Spectators spectators;
   Admission admission;
 
@@ -52,7 +65,7 @@ struct Server::Impl {
   StateComparison comparison;
 
   // Ticks.
-  InputIntake inputs;
+  Taking taking;
   Laggards laggards;
   TickConfirmer confirmer;
 

@@ -84,7 +84,7 @@ TEST(Token, OpensUnderNoOtherKey) {
 TEST(Token, ValuesOutOfRangeAreNotIssued) {
   TestRandom random(6);
   TokenGrant grant = grant_for(0);
-  grant.slot = 16;
+  grant.slot = k_max_players;
   EXPECT_EQ(issue_token(backend_key(), grant, random).status(), Status::invalid_argument);
   grant.slot = k_spectator_slot;
   EXPECT_TRUE(issue_token(backend_key(), grant, random).ok());
@@ -111,7 +111,7 @@ TEST(Token, BytesThatBreakTheFormatAreRefused) {
   };
   EXPECT_EQ(status_with(0, std::byte{1}), Status::malformed);
   EXPECT_EQ(status_with(4, std::byte{9}), Status::unsupported_version);
-  EXPECT_EQ(status_with(30, std::byte{16}), Status::malformed);          // slot
+  EXPECT_EQ(status_with(30, std::byte{64}), Status::malformed);          // slot
   EXPECT_EQ(status_with(31, std::byte{9}), Status::malformed);           // servers
   EXPECT_EQ(status_with(32 + 18 + 3, std::byte{1}), Status::malformed);  // an unused server
 }

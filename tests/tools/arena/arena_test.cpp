@@ -3,6 +3,8 @@
 
 #include "tests/support/random.h"
 #include "tests/tools/arena/arena_match.h"
+#include "tools/arena/arena_command.h"
+#include "tools/arena/level.h"
 
 namespace lockstone::arena::test {
 namespace {
@@ -49,7 +51,7 @@ TEST(ArenaConfig, RefusesBytesThatAreNoConfiguration) {
   bytes[0] = std::byte{0};
   EXPECT_EQ(ArenaConfig::decode(bytes).status(), Status::malformed);
   bytes = ArenaConfig{}.encode();
-  bytes[16] = std::byte{17};  // players
+  bytes[16] = std::byte{k_max_players + 1};  // players
   EXPECT_EQ(ArenaConfig::decode(bytes).status(), Status::invalid_argument);
   EXPECT_EQ(make_arena(bytes).status(), Status::invalid_argument);
 }
@@ -130,6 +132,31 @@ TEST(Arena, SurvivesWhateverSnapshotItAccepts) {
     if (simulation.load(SnapshotKind::canonical, bytes) != Status::ok) continue;
     for (int tick = 0; tick < 5; ++tick)
       step_with_bots(simulation);
+  }
+}
+
+TEST(ArenaCommands, GiveAPointAndLeaveChatToPeople) {
+  ArenaSimulation game(ArenaConfig{.loose_bodies = 0, .players = 3});
+  const std::uint64_t before = game.hash();
+  game.command({1, chat_command("hello")});
+  game.command({1, gift_command(3)});              // no such slot
+  game.command({k_server_slot, gift_command(0)});  // the server has no points
+  EXPECT_EQ(game.hash(), before);
+  game.command({1, gift_command(2)});
+  EXPECT_EQ(game.arena().state.players[1].score, -1);
+  EXPECT_EQ(game.arena().state.players[2].score, 1);
+  EXPECT_EQ(chat_text(chat_command("Zo\u00eb")), "Zo\u00eb");
+  EXPECT_FALSE(chat_text(chat_command("a\nb")).has_value());
+  EXPECT_FALSE(chat_text(gift_command(2)).has_value());
+}
+
+TEST(ArenaLevel, Has64PlacesToStartFromOnTheField) {
+  for (std::size_t slot = 0; slot < k_max_players; ++slot) {
+    const Vec3<Position> place = spawn_point(slot);
+    EXPECT_LT(abs(place.x), Position::from_integer(20));
+    EXPECT_LT(abs(place.z), Position::from_integer(20));
+    for (std::size_t other = 0; other < slot; ++other)
+      EXPECT_FALSE(spawn_point(other) == place) << slot;
   }
 }
 

@@ -103,7 +103,7 @@ class Network(unittest.TestCase):
     def test_a_demo_finds_one_wrong_bit(self):
         out = self.expect(1, self.start("demo", "--fast", "--players", 3, "--ticks", 240,
                                         "--bodies", 30, "--flip-bit-at", 77))
-        self.assertRegex(out, r'desync: tick 77, player 2, body \d+ "[a-z]+ \d+", position\.x: '
+        self.assertRegex(out, r'desync: tick 77, player 2 "bot 2", body \d+ "[a-z]+ \d+", position\.x: '
                               r"0x[0-9a-f]+ \(\S+ m\) here, 0x[0-9a-f]+ \(\S+ m\) there")
 
     def test_an_interrupted_demo_leaves_a_good_log(self):
@@ -266,6 +266,25 @@ class Network(unittest.TestCase):
         relay.terminate()
         self.assertRegex(self.expect(0, relay), r"relayed: \d+ datagrams, .* [1-9]\d* lost")
 
+    def test_names_and_chat_are_shown_and_logged(self):
+        server, port = self.serve("--players", 2, "--ticks", 120, "--bodies", 20, "--record", "match.lks")
+        players = [self.start("join", "--insecure", "--port", port, "--slot", slot, "--name", name, "--say", "hello")
+                   for slot, name in ((0, "Zo\u00eb"), (1, "Ben"))]
+        for player in players:
+            self.expect(0, player)
+        out = self.expect(0, server)
+        self.assertIn('player 0 "Zo\u00eb": hello\n', out)
+        self.assertIn('player 1 "Ben": hello\n', out)
+        players[0].errors.seek(0)
+        heard = players[0].errors.read()
+        self.assertIn("player 1 is Ben\n", heard)
+        self.assertIn("player 1: hello\n", heard)
+        self.verify("match.lks")
+        done = subprocess.run([LOCKSTONE, "info", "--json", self.folder / "match.lks"], capture_output=True, text=True,
+                              timeout=PATIENCE_SECONDS)
+        info = json.loads(done.stdout)
+        self.assertEqual((info["player_names"], info["commands"]), (["Zo\u00eb", "Ben"], 2))
+
     def test_a_player_that_was_dropped_calls_again_by_itself(self):
         server, port = self.serve("--players", 2, "--ticks", 0, "--bodies", 20,
                                   "--record", "match.lks", "--drop-after", 2)
@@ -273,9 +292,9 @@ class Network(unittest.TestCase):
                    for slot in (0, 1)]
         self.read_until("begins", server)
         players[1].send_signal(signal.SIGSTOP)
-        self.read_until("player 1 left: timed out", server)
+        self.read_until('player 1 "bot" left: timed out', server)
         players[1].send_signal(signal.SIGCONT)
-        self.read_until("player 1 plays from tick", server)
+        self.read_until('player 1 "bot" plays from tick', server)
         self.wait_for_ticks(self.ticks_in("match.lks") + 60, "match.lks")
         server.terminate()
         answers = [json.loads(self.expect(0, player)) for player in players]

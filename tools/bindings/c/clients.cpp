@@ -110,6 +110,13 @@ struct ClientBox final : net::ClientObserver, net::InputSource, net::InputPredic
       status = recorder.keyframe(*client->simulation());
     if (status != Status::ok) log.reset();
   }
+  void commands_stepped(std::uint64_t tick, std::span<const PlayerCommand> commands) override {
+    events.add_commands(tick, commands);
+    if (log != nullptr && log->recorder->record_commands(commands) != Status::ok) log.reset();
+  }
+  void command_refused(std::uint64_t number) override {
+    at_tick(LKS_SESSION_COMMAND_REFUSED, 0, 0, static_cast<std::int64_t>(number));
+  }
   void server_silent(std::int64_t silent_us) override {
     at_tick(LKS_SESSION_SILENT, 0, 0, silent_us);
   }
@@ -132,6 +139,11 @@ struct ClientBox final : net::ClientObserver, net::InputSource, net::InputPredic
     event.slot = slot;
     event.tick = tick;
     events.add(event);
+  }
+  void player_named(std::uint8_t slot, std::string_view name) override {
+    lks_session_event event = event_of(LKS_SESSION_NAMED);
+    event.slot = slot;
+    events.add(event, std::string(name));
   }
   void pause_changed(bool paused) override { at_tick(LKS_SESSION_PAUSED, 0, 0, paused ? 1 : 0); }
   void input_replaced(std::uint64_t tick) override { at_tick(LKS_SESSION_INPUT_REPLACED, tick); }
@@ -262,6 +274,21 @@ lks_status lks_client_event_text(const lks_client* client, size_t index, char* o
   return call([&] { read(client).events.give_text(index, out, capacity); });
 }
 
+lks_status lks_client_event_bytes(const lks_client* client, size_t index, void* out,
+                                  size_t capacity, size_t* count) {
+  return call([&] { read(client).events.give_command(index, out, capacity, count); });
+}
+
+lks_status lks_client_send_command(lks_client* client, const void* bytes, size_t count,
+                                   uint64_t* number) {
+  return call([&] {
+    const ByteView command = bytes_of(bytes, count, "bytes");
+    const Result<std::uint64_t> sent = write(client).client->send_command(command);
+    if (!sent) throw failure(sent.status());
+    if (number != nullptr) *number = sent.value();
+  });
+}
+
 lks_status lks_client_get(const lks_client* client, lks_client_view* view) {
   return call([&] {
     const net::Client& source = *read(client).client;
@@ -274,7 +301,8 @@ lks_status lks_client_get(const lks_client* client, lks_client_view* view) {
     raw.finish_reason = static_cast<std::uint32_t>(source.finish_reason());
     raw.may_reconnect = source.may_reconnect() ? 1 : 0;
     raw.paused = source.paused() ? 1 : 0;
-    raw.waiting_mask = source.waiting_mask();
+    raw.waiting = source.waiting_mask();
+    raw.waiting_mask = static_cast<std::uint32_t>(raw.waiting);
     give(raw, view, required(view, "view").size, "view");
   });
 }
@@ -283,6 +311,16 @@ lks_status lks_client_reason(const lks_client* client, char* out, size_t capacit
   return call([&] {
     const net::Client& source = *read(client).client;
     write_text(reason_of(source), array(out, capacity, "out"), capacity);
+  });
+}
+
+lks_status lks_client_player_name(const lks_client* client, uint32_t slot, char* out,
+                                  size_t capacity) {
+  return call([&] {
+    if (slot >= k_max_players) throw invalid("slot", "there is no such slot");
+    const net::Client& source = *read(client).client;
+    write_text(source.player_name(static_cast<std::uint8_t>(slot)), array(out, capacity, "out"),
+               capacity);
   });
 }
 

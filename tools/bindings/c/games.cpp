@@ -161,6 +161,17 @@ lks_status lks_simulation_step(lks_simulation* simulation, const void* inputs, s
   });
 }
 
+lks_status lks_simulation_command(lks_simulation* simulation, uint32_t slot, const void* bytes,
+                                  size_t count) {
+  return call([&] {
+    Simulation& target = write(simulation);
+    if (slot >= target.info().player_count && slot != k_server_slot)
+      throw invalid("slot", "there is no such slot");
+    if (count == 0 || count > k_max_command_bytes) throw invalid("count", "must be 1 … 65536");
+    target.command({static_cast<std::uint8_t>(slot), bytes_of(bytes, count, "bytes")});
+  });
+}
+
 lks_status lks_simulation_hash(const lks_simulation* simulation, uint64_t* out) {
   return call([&] {
     const Simulation& source = read(simulation);

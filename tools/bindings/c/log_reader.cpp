@@ -15,6 +15,7 @@ struct lks_log {
   std::vector<std::byte> bytes;  // of a log in memory
   std::unique_ptr<lockstone::replay::Source> source;
   std::unique_ptr<lockstone::replay::TickReader> ticks;
+  bool read = false;      // a tick was given
   bool has_next = false;  // the tick that `ticks` stands at was not given yet
 };
 
@@ -75,7 +76,7 @@ struct Side {
     if (found.status == Status::ok && !found.ticks->next()) found.status = Status::not_found;
     if (found.status != Status::ok) fail(found.status, found.what);
     recorded = found.ticks->hash();
-    found.simulation->step(found.ticks->inputs());
+    step_tick(*found.simulation, found.ticks->inputs(), found.ticks->commands());
   }
   [[nodiscard]] bool reproduced() const { return found.simulation->hash() == recorded; }
 
@@ -83,7 +84,7 @@ struct Side {
   [[nodiscard]] bool step_to_keyframe() {
     while (found.ticks->next()) {
       if (found.ticks->at_keyframe()) return true;
-      found.simulation->step(found.ticks->inputs());
+      step_tick(*found.simulation, found.ticks->inputs(), found.ticks->commands());
     }
     return found.ticks->at_keyframe();
   }
@@ -152,6 +153,7 @@ lks_log& handle(lks_log* log) {
 }
 
 void next(lks_log& log) {
+  log.read = false;
   if (!log.has_next) log.has_next = log.ticks->next();
   if (log.has_next) return;
   const replay::Damage& damage = log.ticks->reader().damage();
@@ -199,6 +201,17 @@ lks_status lks_log_get_info(lks_log* log, lks_log_info* info) {
   });
 }
 
+lks_status lks_log_player_name(lks_log* log, uint32_t slot, char* out, size_t capacity) {
+  return call([&] {
+    replay::Damage damage;
+    auto read = replay::read_log_info(*handle(log).source, &damage);
+    if (!read.ok()) fail(read.status(), damage.what);
+    const std::vector<std::string>& names = read.value().player_names;
+    if (slot >= names.size()) throw invalid("slot", "there is no such slot");
+    write_text(names[slot], array(out, capacity, "out"), capacity);
+  });
+}
+
 lks_status lks_log_config(lks_log* log, void* out, size_t capacity, size_t* count) {
   return call([&] {
     give_bytes(handle(log).ticks->config(), out, capacity, required(count, "count"),
@@ -227,6 +240,21 @@ lks_status lks_log_next(lks_log* log, uint64_t* tick, void* inputs, size_t bytes
     *tick = source.ticks->tick();
     *hash = source.ticks->hash();
     source.has_next = false;
+    source.read = true;
+  });
+}
+
+lks_status lks_log_command(lks_log* log, size_t index, uint32_t* slot, void* out, size_t capacity,
+                           size_t* count) {
+  return call([&] {
+    const lks_log& source = handle(log);
+    required(slot, "slot");
+    required(count, "count");
+    if (source.has_next || !source.read) throw Failure{LKS_NOT_FOUND, "no tick was read"};
+    const std::span<const PlayerCommand> commands = source.ticks->commands();
+    if (index >= commands.size()) throw Failure{LKS_NOT_FOUND, "the tick has no such command"};
+    *slot = commands[index].slot;
+    give_bytes(commands[index].bytes, out, capacity, *count, "the command");
   });
 }
 
@@ -241,6 +269,7 @@ lks_status lks_log_seek(lks_log* log, const lks_game* game, uint64_t tick, lks_s
     *out =
         make_handle(shared, {config.begin(), config.end()}, std::move(found.simulation)).release();
     source.ticks = std::move(found.ticks);
+    source.read = false;
     source.has_next = false;
   });
 }

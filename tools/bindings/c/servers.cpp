@@ -35,6 +35,9 @@ lks_server_def raw_def(const net::ServerConfig& config) {
   raw.rejoin_seed = config.rejoin_seed;
   raw.drop_us = config.timeouts.drop_us;
   raw.rejoin_us = config.timeouts.rejoin_us;
+  raw.command_bytes_max = config.commands.max_bytes;
+  raw.commands_per_second = config.commands.per_second;
+  raw.command_bytes_per_second = config.commands.bytes_per_second;
   return raw;
 }
 
@@ -60,6 +63,7 @@ net::ServerConfig config_of(const lks_server_def& raw) {
   config.rejoin_seed = raw.rejoin_seed;
   config.timeouts.drop_us = timeout_of(raw.drop_us, "def.drop_us");
   config.timeouts.rejoin_us = timeout_of(raw.rejoin_us, "def.rejoin_us");
+  config.commands = {raw.command_bytes_max, raw.commands_per_second, raw.command_bytes_per_second};
   return config;
 }
 
@@ -104,11 +108,16 @@ struct lks_server final : net::ServerObserver {
     if (records() && log->recorder->keyframe_due())
       note(log->recorder->keyframe(*match->simulation));
   }
+  void commands_confirmed(std::uint64_t tick, std::span<const PlayerCommand> commands) override {
+    events.add_commands(tick, commands);
+    if (records()) note(log->recorder->record_commands(commands));
+  }
   void player_joined(std::uint8_t slot, std::string_view name) override {
     lks_session_event event = event_of(LKS_SESSION_JOINED);
     event.slot = slot;
     events.add(event, std::string(name));
-    record(replay::EventKind::join, slot, name);
+    record(replay::EventKind::join, slot, {});
+    record(replay::EventKind::name, slot, name);
     say(LKS_LEVEL_INFO, "player " + std::to_string(slot) + " joined: " + std::string(name));
   }
   void player_left(std::uint8_t slot, net::LeaveReason reason) override {
@@ -198,6 +207,8 @@ lks_session_stats raw_of(const net::PlayerStats& stats) {
   lks_session_stats raw = traffic_of(stats);
   raw.hashes_compared = stats.hashes_compared;
   raw.hashes_equal = stats.hashes_equal;
+  raw.commands_taken = stats.commands_taken;
+  raw.commands_refused = stats.commands_refused;
   return raw;
 }
 
@@ -252,6 +263,19 @@ lks_status lks_server_event_text(const lks_server* server, size_t index, char* o
   return call([&] { handle(server).events.give_text(index, out, capacity); });
 }
 
+lks_status lks_server_event_bytes(const lks_server* server, size_t index, void* out,
+                                  size_t capacity, size_t* count) {
+  return call([&] { handle(server).events.give_command(index, out, capacity, count); });
+}
+
+lks_status lks_server_send_command(lks_server* server, const void* bytes, size_t count) {
+  return call([&] {
+    const ByteView command = bytes_of(bytes, count, "bytes");
+    const Status status = running(server).send_command(command);
+    if (status != Status::ok) throw failure(status);
+  });
+}
+
 lks_status lks_server_record(lks_server* server, lks_recorder* recorder) {
   return call([&] {
     running(server);
@@ -284,11 +308,24 @@ lks_status lks_server_get(const lks_server* server, lks_server_view* view) {
     raw.ticks_closed = source.ticks_confirmed();
     if (source.state() >= net::ServerState::closing)
       raw.finish_reason = static_cast<std::uint32_t>(source.finish_reason());
-    raw.present_mask = source.present_mask();
-    raw.waiting_mask = source.waiting_mask();
+    raw.present = source.present_mask();
+    raw.waiting = source.waiting_mask();
+    raw.present_mask = static_cast<std::uint32_t>(raw.present);
+    raw.waiting_mask = static_cast<std::uint32_t>(raw.waiting);
     raw.spectators = static_cast<std::uint32_t>(source.spectators());
     raw.paused = source.paused() ? 1 : 0;
     give(raw, view, required(view, "view").size, "view");
+  });
+}
+
+lks_status lks_server_player_name(const lks_server* server, uint32_t slot, char* out,
+                                  size_t capacity) {
+  return call([&] {
+    const lks_server& source = handle(server);
+    if (slot >= source.match->simulation->info().player_count)
+      throw invalid("slot", "there is no such slot");
+    write_text(source.server->player_name(static_cast<std::uint8_t>(slot)),
+               array(out, capacity, "out"), capacity);
   });
 }
 

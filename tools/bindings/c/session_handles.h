@@ -24,8 +24,14 @@ class SessionEvents {
 
   void give(lks_session_event* out, std::size_t capacity, std::size_t* count) const;
   void give_text(std::size_t index, char* out, std::size_t capacity) const;
+  void give_command(std::size_t index, void* out, std::size_t capacity, std::size_t* count) const;
+
+  /// Keeps the commands of a tick.
+  void add_commands(std::uint64_t tick, std::span<const PlayerCommand> commands);
 
  private:
+  [[nodiscard]] std::string_view text_of(std::size_t index) const;
+
   struct Text {
     std::size_t index;
     std::string text;

@@ -19,9 +19,32 @@ void SessionEvents::give(lks_session_event* out, std::size_t capacity, std::size
 
 void SessionEvents::give_text(std::size_t index, char* out, std::size_t capacity) const {
   array(out, capacity, "out");
+  write_text(text_of(index), out, capacity);
+}
+
+std::string_view SessionEvents::text_of(std::size_t index) const {
   if (index >= events_.size()) throw Failure{LKS_NOT_FOUND, "there is no such event"};
   const auto found = std::ranges::find(texts_, index, &Text::index);
-  write_text(found == texts_.end() ? std::string_view() : found->text, out, capacity);
+  return found == texts_.end() ? std::string_view() : found->text;
+}
+
+void SessionEvents::give_command(std::size_t index, void* out, std::size_t capacity,
+                                 std::size_t* count) const {
+  required(count, "count");
+  const std::string_view text = text_of(index);
+  if (events_[index].kind != LKS_SESSION_COMMAND)
+    throw Failure{LKS_NOT_FOUND, "the event is no command"};
+  give_bytes(std::as_bytes(std::span(text)), out, capacity, *count, "the command");
+}
+
+void SessionEvents::add_commands(std::uint64_t tick, std::span<const PlayerCommand> commands) {
+  for (const PlayerCommand& command : commands) {
+    lks_session_event event = event_of(LKS_SESSION_COMMAND);
+    event.tick = tick;
+    event.slot = command.slot;
+    event.value = static_cast<std::int64_t>(command.bytes.size());
+    add(event, {reinterpret_cast<const char*>(command.bytes.data()), command.bytes.size()});
+  }
 }
 
 lks_session_event event_of(const net::DesyncReport& report) {

@@ -19,7 +19,7 @@ constexpr std::size_t k_input_bytes = 3;
 class RollingGame final : public Simulation {
  public:
   explicit RollingGame(std::uint8_t players)
-      : players_(players), world_(World::create({.body_capacity = 64}).value()) {
+      : players_(players), world_(World::create({.body_capacity = k_max_players + 1}).value()) {
     BodyDef floor{.motion = MotionType::static_body, .shape = Shape::box(20_m, 0.5_m, 20_m)};
     floor.position = {{}, -0.5_m, {}};
     (void)world_.create_body(floor);

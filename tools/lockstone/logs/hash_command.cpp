@@ -105,7 +105,7 @@ class LogRun {
     while (ticks_.next()) {
       progress.show("hash", chain.size(), 0);
       take_inputs(ticks_.inputs());
-      simulation_.step(ticks_.inputs());
+      step_tick(simulation_, ticks_.inputs(), ticks_.commands());
       chain.push_back({simulation_.tick(), hash_text(simulation_.hash())});
       const bool due = options_.parts_every > 0 && simulation_.tick() % options_.parts_every == 0;
       if (due && !keep()) return k_unavailable;

@@ -80,7 +80,10 @@ void print_json(const LogInfo& info, const Extras& extras) {
                     {"complete", info.complete},
                     {"torn_tail", info.torn_tail},
                     {"end_reason", info.end_reason},
-                    {"inputs_by_origin", info.inputs_by_origin}};
+                    {"inputs_by_origin", info.inputs_by_origin},
+                    {"player_names", info.player_names},
+                    {"commands", info.commands},
+                    {"command_bytes", info.command_bytes}};
   for (const replay::ChunkTypeTotals& totals : info.chunk_types) {
     json["chunks"].push_back({{"type", to_string(totals.type)},
                               {"count", totals.chunks},
@@ -124,6 +127,12 @@ void print_text(const InfoOptions& options, const LogInfo& info, const Extras& e
   print_header(info.header);
   fmt::print("ticks         {} ({:.1f} s), last hash {}\n", info.ticks,
              static_cast<double>(info.duration_milliseconds) / 1000, hash_text(info.last_hash));
+  for (std::size_t slot = 0; slot < info.player_names.size(); ++slot) {
+    const std::string& name = info.player_names[slot];
+    if (!name.empty()) fmt::print("  player {:<4} {}\n", slot, name);
+  }
+  if (info.commands > 0)
+    fmt::print("commands      {}, {} bytes\n", info.commands, info.command_bytes);
   const auto& origins = info.inputs_by_origin;
   fmt::print("inputs        {} received, {} repeated, {} neutral, {} absent\n", origins[0],
              origins[1], origins[2], origins[3]);

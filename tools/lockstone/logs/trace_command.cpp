@@ -55,7 +55,7 @@ std::optional<StageTrace> stages_of(const GameLog& log, std::uint64_t tick) {
   replay::SeekResult found =
       replay::seek(*log.source, log.game->make, tick, replay::SeekFrom::beginning);
   if (found.status == Status::ok && found.ticks->next())
-    return step_traced(*log.game, *found.simulation, found.ticks->inputs());
+    return step_traced(*log.game, *found.simulation, *found.ticks);
   complain(found.what.empty() ? "the log ends before that tick" : found.what);
   return std::nullopt;
 }
@@ -75,7 +75,7 @@ Result<Trace> trace_log(const GameLog& log) {
   bool agrees = true;
   while (found.ticks->next()) {
     progress.show("trace", trace.hashes.size(), 0);
-    found.simulation->step(found.ticks->inputs());
+    step_tick(*found.simulation, found.ticks->inputs(), found.ticks->commands());
     trace.hashes.push_back(found.simulation->hash());
     agrees = agrees && trace.hashes.back() == found.ticks->hash();
     trace.agreed += agrees ? 1U : 0U;

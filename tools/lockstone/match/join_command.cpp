@@ -36,6 +36,7 @@ struct JoinOptions {
   std::string token;
   std::uint64_t bot_seed = 1;
   std::string name = "bot";
+  std::string say;
   int slot = net::k_no_slot;
   std::optional<std::uint64_t> flip_bit_at;
   bool spectate = false;
@@ -96,7 +97,7 @@ class BotInputs final : public net::InputSource {
 
 class JoinObserver final : public net::ClientObserver {
  public:
-  explicit JoinObserver(bool quiet) : quiet_(quiet) {}
+  JoinObserver(bool quiet, const JoinedGame& joined) : quiet_(quiet), joined_(joined) {}
 
   void joined(std::uint8_t slot) override {
     const bool back = std::exchange(own_slot_, slot) == slot;
@@ -104,6 +105,17 @@ class JoinObserver final : public net::ClientObserver {
     const bool watches = slot == net::k_spectator_slot;
     fmt::print(stderr, "{} {}\n", back ? "back as" : "joined as",
                watches ? "a spectator" : fmt::format("player {}", slot));
+  }
+  void commands_stepped(std::uint64_t, std::span<const PlayerCommand> commands) override {
+    if (quiet_ || joined_.game().chat_text == nullptr) return;
+    for (const PlayerCommand& command : commands) {
+      const std::optional<std::string> text = joined_.game().chat_text(command.bytes);
+      if (text) fmt::print(stderr, "player {}: {}\n", command.slot, *text);
+    }
+  }
+  void player_named(std::uint8_t slot, std::string_view name) override {
+    if (quiet_ || slot == own_slot_ || name.empty()) return;
+    fmt::print(stderr, "player {} is {}\n", slot, name);
   }
   void tick_stepped(std::uint64_t tick, std::span<const PlayerInput>, std::uint64_t hash) override {
     final_hash = hash;
@@ -127,6 +139,7 @@ class JoinObserver final : public net::ClientObserver {
 
  private:
   bool quiet_;
+  const JoinedGame& joined_;
   std::uint8_t own_slot_ = net::k_no_slot;
   std::uint64_t active_tick_ = ~std::uint64_t{0};
 };
@@ -209,12 +222,13 @@ int conclude(const JoinOptions& options, const net::Client& client, const JoinOb
 class Play {
  public:
   Play(const JoinOptions& options, Targets& targets, Caller& caller, net::Client& client,
-       JoinObserver& observer)
+       JoinObserver& observer, const JoinedGame& joined)
       : options_(options),
         targets_(targets),
         caller_(caller),
         client_(client),
-        observer_(observer) {}
+        observer_(observer),
+        joined_(joined) {}
 
   void run() {
     using namespace std::chrono_literals;
@@ -226,6 +240,7 @@ class Play {
         lost_seconds_ = -1;
         calls_ = 0;
       }
+      say_once();
       if (interrupted() && !std::exchange(leaving_, true)) client_.leave();
       const bool busy = std::exchange(seen, client_.ticks_stepped()) != client_.ticks_stepped();
       if (busy) busy_us = watch_.microseconds();
@@ -236,6 +251,13 @@ class Play {
   }
 
  private:
+  void say_once() {
+    const auto& chat = joined_.game().chat_command;
+    const bool says = !options_.say.empty() && !said_ && chat != nullptr;
+    if (says && client_.state() == net::ClientState::running)
+      said_ = client_.send_command(chat(options_.say)).ok();
+  }
+
   // False when there is nothing to come back to, or it took too long.
   [[nodiscard]] bool come_back() {
     if (leaving_ || interrupted() || !client_.may_reconnect()) return false;
@@ -286,8 +308,10 @@ class Play {
   Caller& caller_;
   net::Client& client_;
   JoinObserver& observer_;
+  const JoinedGame& joined_;
   Stopwatch watch_;
   bool leaving_ = false;
+  bool said_ = false;
   double lost_seconds_ = -1;  ///< since when; below 0: it is not
   std::size_t calls_ = 0;     ///< since then
   double pause_seconds_ = 0;  ///< before the next call; 0: none is planned
@@ -346,7 +370,7 @@ int join(const Games& games, const JoinOptions& options) {
   if (caller == nullptr) return k_unavailable;
   JoinedGame joined(games, options.flip_bit_at);
   BotInputs inputs(joined, options.bot_seed);
-  JoinObserver observer(options.quiet);
+  JoinObserver observer(options.quiet, joined);
   net::ClientConfig config;
   if (targets.count() > 1) config.timeouts.handshake_us = k_patience_us;
   config.insecure = options.insecure;
@@ -362,7 +386,7 @@ int join(const Games& games, const JoinOptions& options) {
     return k_usage;
   }
   inputs.watch(*created.client);
-  Play(options, targets, *caller, *created.client, observer).run();
+  Play(options, targets, *caller, *created.client, observer, joined).run();
   return conclude(options, *created.client, observer);
 }
 
@@ -385,12 +409,13 @@ void add_join_command(CLI::App& app, Tool& tool) {
       ->capture_default_str();
   command->add_option("--name", options->name, "Name that the server shows for this player")
       ->capture_default_str();
+  command->add_option("--say", options->say, "A line of chat, once the match runs");
   command->add_flag("--spectate", options->spectate, "Only watch");
   command->add_option("--predict", options->predict, "Rollback: ticks to run ahead; 0: lockstep")
       ->check(CLI::Range(0, 15))
       ->capture_default_str();
   command->add_option("--slot", options->slot, "Player slot; any when not given")
-      ->check(CLI::Range(0, 15));
+      ->check(CLI::Range(std::size_t{0}, k_max_players - 1));
   command
       ->add_option("--reconnect", options->reconnect,
                    "Call again for this many seconds when the connection is lost; 0: never")

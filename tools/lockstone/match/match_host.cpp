@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <lockstone/hash.h>
+#include <lockstone/net/player_name.h>
 #include <lockstone/world.h>
 
 #include "tools/lockstone/commands.h"
@@ -81,13 +82,17 @@ struct MatchHost::Impl final : net::ServerObserver {
   std::uint64_t ticks_seen = 0;
   std::unique_ptr<MetricsPort> metrics_port;
   HostOrders wanted;
-  std::optional<std::uint16_t> resume_mask;  ///< of a match that goes on
+  std::optional<net::SlotMask> resume_mask;  ///< of a match that goes on
   std::vector<TarEntry> bundle;              ///< of the first desync, without the log
 
   void say(const JournalEntry& entry) {
     if (options.silent) return;
     progress.clear();
     journal.write(entry);
+  }
+
+  [[nodiscard]] std::string player(std::uint8_t slot) const {
+    return net::player_text(slot, server->player_name(slot));
   }
 
   void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
@@ -101,18 +106,30 @@ struct MatchHost::Impl final : net::ServerObserver {
     summary.final_hash = hash.value_or(0);
     log.record(*match.simulation, tick, inputs, summary.final_hash);
   }
+  void commands_confirmed(std::uint64_t tick, std::span<const PlayerCommand> commands) override {
+    log.commands(commands);
+    if (match.game->chat_text == nullptr) return;
+    for (const PlayerCommand& command : commands) {
+      const std::optional<std::string> text = match.game->chat_text(command.bytes);
+      if (text) say({"chat", speaker(command.slot) + ": " + *text, command.slot, tick});
+    }
+  }
+  [[nodiscard]] std::string speaker(std::uint8_t slot) const {
+    return slot == k_server_slot ? "server" : player(slot);
+  }
   void player_joined(std::uint8_t slot, std::string_view name) override {
     say({"player_joined", fmt::format("player {} joined: {}", slot, name), slot});
-    log.event(replay::EventKind::join, slot, name);
+    log.event(replay::EventKind::join, slot, {});
+    log.event(replay::EventKind::name, slot, name);
   }
   void player_left(std::uint8_t slot, net::LeaveReason reason) override {
     if (reason != net::LeaveReason::match_over) {
-      say({"player_left", fmt::format("player {} left: {}", slot, to_string(reason)), slot});
+      say({"player_left", fmt::format("{} left: {}", player(slot), to_string(reason)), slot});
     }
     log.event(replay::EventKind::leave, slot, to_string(reason));
   }
   void player_silent(std::uint8_t slot, std::int64_t silent_us) override {
-    say({"player_silent", fmt::format("player {} is silent since {} ms", slot, silent_us / 1000),
+    say({"player_silent", fmt::format("{} is silent since {} ms", player(slot), silent_us / 1000),
          slot});
   }
   void player_refused(const net::Refusal& refusal) override {
@@ -125,7 +142,7 @@ struct MatchHost::Impl final : net::ServerObserver {
     if (!options.bundle.empty() && bundle.empty()) begin_bundle(report);
   }
   void player_active(std::uint8_t slot, std::uint64_t tick) override {
-    say({"player_active", fmt::format("player {} plays from tick {} on", slot, tick), slot, tick});
+    say({"player_active", fmt::format("{} plays from tick {} on", player(slot), tick), slot, tick});
     log.event(replay::EventKind::join, slot, fmt::format("plays from tick {} on", tick));
   }
   void player_asks(std::uint8_t slot, net::AskKind kind, std::uint8_t topic,
@@ -133,18 +150,20 @@ struct MatchHost::Impl final : net::ServerObserver {
     const char* wish = kind == net::AskKind::vote     ? "votes"
                        : kind == net::AskKind::resume ? "asks to go on"
                                                       : "asks for a pause";
-    say({"player_asks", fmt::format("player {} {} ({}, {})", slot, wish, topic, choice), slot});
+    say({"player_asks", fmt::format("{} {} ({}, {})", player(slot), wish, topic, choice), slot});
     if (kind != net::AskKind::vote) wanted.pause = kind == net::AskKind::pause;
   }
 
   // One archive that holds all that is known about it.
   void begin_bundle(const net::DesyncReport& report) {
-    const std::string text = fmt::format(
+    std::string text = fmt::format(
         "{}\nverdict: {}\nhash here:  {}\nhash there: {}\nbuild here:  {}\nbuild there: {}\n",
         report.to_line(), to_string(report.verdict), hash_text(report.hash_here),
         hash_text(report.hash_there),
         report.build_here.empty() ? build_text(build_of(*match.game)) : report.build_here,
         report.build_there);
+    for (std::uint8_t slot = 0; slot < match.simulation->info().player_count; ++slot)
+      text += player(slot) + '\n';
     const auto* begin = reinterpret_cast<const std::byte*>(text.data());
     bundle.push_back({"report.txt", {begin, begin + text.size()}});
     bundle.push_back({"here.snapshot", {report.dump_here.begin(), report.dump_here.end()}});
@@ -340,10 +359,10 @@ void MatchHost::say_summary(const MatchSummary& summary) {
   for (std::uint8_t slot = 0; slot < summary.players.size(); ++slot) {
     const net::PlayerStats& player = summary.players[slot];
     impl_->say({"player_summary",
-                fmt::format("player {}: {} of {} hashes equal, {} late inputs, {} bytes in, {} "
+                fmt::format("{}: {} of {} hashes equal, {} late inputs, {} bytes in, {} "
                             "bytes out",
-                            slot, player.hashes_equal, player.hashes_compared, player.late_inputs,
-                            player.bytes_received, player.bytes_sent),
+                            impl_->player(slot), player.hashes_equal, player.hashes_compared,
+                            player.late_inputs, player.bytes_received, player.bytes_sent),
                 slot});
   }
 }
@@ -394,6 +413,7 @@ MatchMetrics MatchHost::metrics() const {
   }
   for (unsigned slot = 0; slot < impl_->match.simulation->info().player_count; ++slot) {
     metrics.players.push_back(impl_->server->stats(static_cast<std::uint8_t>(slot)));
+    metrics.names.emplace_back(impl_->server->player_name(static_cast<std::uint8_t>(slot)));
   }
   return metrics;
 }
@@ -406,9 +426,9 @@ std::string MatchHost::progress_line() const {
   std::string line = fmt::format("tick {}", ticks_confirmed());
   if (impl_->options.ticks > 0) line += fmt::format(" of {}", impl_->options.ticks);
   line += fmt::format(", {} players", present);
-  const std::uint16_t waiting = impl_->server->waiting_mask();
+  const net::SlotMask waiting = impl_->server->waiting_mask();
   if (waiting != 0 && !impl_->options.fast) {
-    line += fmt::format(", waiting for player {}", std::countr_zero(waiting));
+    line += ", waiting for " + impl_->player(static_cast<std::uint8_t>(std::countr_zero(waiting)));
   }
   return line;
 }

@@ -38,6 +38,10 @@ Status MatchLog::open(const MatchOptions& options, const GameDef& game,
   return note(begun == Status::ok && !options.resume.empty() ? take_over(options) : begun);
 }
 
+void MatchLog::commands(std::span<const PlayerCommand> commands) {
+  if (active()) static_cast<void>(note(recorder_->record_commands(commands)));
+}
+
 void MatchLog::record(const Simulation& simulation, std::uint64_t tick,
                       std::span<const PlayerInput> inputs, std::uint64_t hash) {
   if (!active()) return;

@@ -26,6 +26,8 @@ class MatchLog {
  public:
   [[nodiscard]] Status open(const MatchOptions& options, const GameDef& game,
                             const Simulation& simulation, ByteView config);
+  /// Of the tick that is recorded next.
+  void commands(std::span<const PlayerCommand> commands);
   void record(const Simulation& simulation, std::uint64_t tick, std::span<const PlayerInput> inputs,
               std::uint64_t hash);
   void event(replay::EventKind kind, std::uint8_t slot, std::string_view text);

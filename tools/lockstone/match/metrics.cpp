@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <lockstone/net/player_name.h>
+
 namespace lockstone::tool {
 namespace {
 
@@ -148,7 +150,8 @@ nlohmann::ordered_json json_of(const MatchMetrics& metrics) {
   nlohmann::ordered_json players = nlohmann::ordered_json::array();
   for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
     nlohmann::ordered_json player{{"slot", slot},
-                                  {"present", ((metrics.present_mask >> slot) & 1) != 0}};
+                                  {"present", net::has_slot(metrics.present_mask, slot)}};
+    if (slot < metrics.names.size()) player["name"] = metrics.names[slot];
     for (const PlayerFigure& figure : k_figures)
       player[figure.name] = figure.value(metrics.players[slot]);
     players.push_back(std::move(player));
@@ -249,8 +252,10 @@ std::string metrics_as_text(const MatchMetrics& metrics) {
     }
   }
   for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
-    const bool present = ((metrics.present_mask >> slot) & 1) != 0;
-    text += fmt::format("player {} ({}):", slot, present ? "here" : "away");
+    const bool present = net::has_slot(metrics.present_mask, slot);
+    const std::string name = slot < metrics.names.size() ? metrics.names[slot] : std::string();
+    text += fmt::format("{} ({}):", net::player_text(static_cast<unsigned>(slot), name),
+                        present ? "here" : "away");
     for (const PlayerFigure& figure : k_figures)
       text += fmt::format(" {} {}", figure.name, figure.value(metrics.players[slot]));
     text += '\n';

@@ -24,9 +24,10 @@ struct MatchMetrics {
   bool ready = true;                       ///< players may come
   std::uint64_t ticks = 0;
   std::size_t spectators = 0;
-  std::uint16_t present_mask = 0;
+  net::SlotMask present_mask = 0;
   std::uint64_t desyncs = 0;
   std::vector<net::PlayerStats> players;
+  std::vector<std::string> names = {};  ///< of the players; empty: not told
   net::ServerCounters server;
   net::ConnectionCounts connections;
   net::EnetCounters socket;

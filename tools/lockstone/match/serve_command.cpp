@@ -293,7 +293,7 @@ void add_serve_command(CLI::App& app, Tool& tool) {
   command
       ->add_option("--start-players", options->match.start_players,
                    "Begin with this many players; others may come later. 0: with all")
-      ->check(CLI::Range(0, 16))
+      ->check(CLI::Range(std::size_t{0}, k_max_players))
       ->capture_default_str();
   command
       ->add_option("--drop-after", options->match.drop_after_s,

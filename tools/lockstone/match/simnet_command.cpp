@@ -183,7 +183,7 @@ void add_simnet_command(CLI::App& app, Tool& tool) {
       ->capture_default_str();
   batch.clients = 0;
   command->add_option("--players", batch.clients, "Players of each match; 0: the usual number")
-      ->check(CLI::Range(0, 16))
+      ->check(CLI::Range(std::size_t{0}, k_max_players))
       ->capture_default_str();
   command->add_option("--ticks", batch.ticks, "Ticks of each match")
       ->check(CLI::Range(60, 1'000'000))

@@ -22,8 +22,10 @@ std::size_t longest_keyframe(replay::Source& source) {
 
 Status copy_ticks(const replay::LogReader& reader, replay::Recorder& recorder) {
   for (std::size_t i = 0; i < reader.hashes().size(); ++i) {
-    const Status status = recorder.record_tick(reader.chunk().first_tick + i, reader.tick_inputs(i),
-                                               reader.hashes()[i]);
+    Status status = recorder.record_commands(reader.tick_commands(i));
+    if (status != Status::ok) return status;
+    status = recorder.record_tick(reader.chunk().first_tick + i, reader.tick_inputs(i),
+                                  reader.hashes()[i]);
     if (status != Status::ok) return status;
   }
   return Status::ok;

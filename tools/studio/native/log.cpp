@@ -22,6 +22,12 @@ namespace {
 using namespace lockstone;
 using namespace lockstone::c;
 
+struct TickCommand {
+  std::uint64_t tick = 0;
+  std::uint8_t slot = 0;
+  std::vector<std::byte> bytes;
+};
+
 struct EventPlace {
   std::uint32_t tick = 0, kind = 0, slot = 0;
 };
@@ -38,6 +44,7 @@ struct lks_studio_log {
   std::vector<std::vector<std::byte>> keyframes;
   std::vector<EventPlace> event_places;
   std::vector<std::string> event_texts;
+  std::vector<TickCommand> commands;
   std::string end;
   std::string damage;
   bool complete = false;
@@ -90,6 +97,11 @@ void add_ticks(const replay::LogReader& reader, lks_studio_log& log) {
     for (const PlayerInput& input : reader.tick_inputs(i)) {
       append(log.inputs, input.bytes);
       log.origins.push_back(input.origin);
+    }
+    for (const PlayerCommand& command : reader.tick_commands(i)) {
+      log.commands.push_back({reader.chunk().first_tick + i,
+                              command.slot,
+                              {command.bytes.begin(), command.bytes.end()}});
     }
   }
   append(log.hashes, hashes);
@@ -259,6 +271,10 @@ lks_status lks_studio_log_step(const lks_studio_log* log, lks_world* world, uint
         static_cast<std::size_t>(play->simulation().tick() - from.header.match.start_tick);
     if (tick >= from.hashes.size()) throw failure(Status::not_found);
     play->set_inputs(from, tick);
+    const auto commands =
+        std::ranges::equal_range(from.commands, play->simulation().tick(), {}, &TickCommand::tick);
+    for (const TickCommand& command : commands)
+      play->simulation().command({command.slot, command.bytes});
     play->step();
     required(same, "same") = play->simulation().hash() == from.hashes[tick] ? 1 : 0;
   });

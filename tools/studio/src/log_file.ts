@@ -4,7 +4,7 @@ import type { World } from "../../web/src/world.js";
 
 export const Origin = { received: 0, repeated: 1, neutral: 2, absent: 3 } as const;
 export const ORIGINS = ["received", "repeated", "neutral", "absent"] as const;
-const EVENT_KINDS = ["event", "join", "leave", "substitution", "note"];
+const EVENT_KINDS = ["event", "join", "leave", "substitution", "note", "name"];
 const FACTS_BYTES = 88;
 
 export interface LogEvent {

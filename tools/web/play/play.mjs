@@ -1,13 +1,15 @@
-// The page: the player of one seat of a match of the arena. ?seat=N; /seat/N says where and with which token.
+// The page: the player of one seat of a match of the arena. ?seat=N&name=NAME; /seat/N says where and with which token.
 import { Client, View, loadSession } from "lockstone/session";
 import { Picture } from "../testbed/picture.mjs";
 
 const KEYS = { KeyW: "up", ArrowUp: "up", KeyS: "down", ArrowDown: "down", KeyA: "left", ArrowLeft: "left", KeyD: "right", ArrowRight: "right" };
+const SEATS = 64, SERVER = 253, CHAT = 1;  // tools/arena/arena_command.h
 const BUTTONS = { Space: 1, KeyE: 2, KeyF: 4, KeyX: 8 };
 const seat = new URLSearchParams(location.search).get("seat") ?? "0";
 const { url, token } = await (await fetch(`/seat/${seat}`)).json();
 const lockstone = await loadSession();
-const client = new Client(lockstone, { url, token, name: `tab ${seat}`, predictionTicks: 8 });
+const name = new URLSearchParams(location.search).get("name") ?? `tab ${seat}`;
+const client = new Client(lockstone, { url, token, name, predictionTicks: 8 });
 const canvas = document.getElementById("picture");
 const picture = new Picture(canvas);
 const held = new Set();
@@ -31,6 +33,7 @@ function input() {
 }
 
 function press(event, down) {
+  if (event.target.tagName === "INPUT") return;
   const name = KEYS[event.code] ?? (event.code in BUTTONS ? event.code : null);
   if (name === null) return;
   down ? held.add(name) : held.delete(name);
@@ -46,10 +49,27 @@ canvas.onpointermove = (event) => {
 };
 canvas.onwheel = (event) => (picture.distance *= Math.exp(event.deltaY / 1000));
 
+function tell(slot, text) {
+  const who = slot === SERVER ? "server" : client.playerName(slot) || `player ${slot}`;
+  document.getElementById("chat").append(Object.assign(document.createElement("div"), { textContent: `${who}: ${text}` }));
+}
+document.getElementById("say").onsubmit = (event) => {
+  event.preventDefault();
+  const line = event.target.elements.line;
+  if (line.value !== "" && client.state === "running") client.sendCommand(new Uint8Array([CHAT, ...new TextEncoder().encode(line.value)]));
+  line.value = "";
+  canvas.focus();
+};
+
 function update() {
   client.setInput(input());
-  for (const event of client.update()) if (event.kind === "desync") desync = event.text;
+  for (const event of client.update()) {
+    if (event.kind === "desync") desync = event.text;
+    if (event.kind === "command" && event.bytes[0] === CHAT) tell(event.slot, new TextDecoder().decode(event.bytes.subarray(1)));
+  }
   const { stats } = client;
+  document.getElementById("players").textContent = Array.from({ length: SEATS }, (_, slot) => slot)
+    .filter((slot) => client.playerName(slot) !== "").map((slot) => `${slot} ${client.playerName(slot)}`).join(" · ");
   document.getElementById("state").textContent = `player ${client.slot}, ${client.state}, tick ${client.ticks}` +
     `, margin ${stats.marginQuarters / 4} ticks, ${stats.rollbacks} rollbacks${desync && `\n${desync}`}${client.reason && `\n${client.reason}`}`;
 }

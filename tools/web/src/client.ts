@@ -17,7 +17,7 @@ export interface ClientOptions {
   slot?: number | "spectator";
   /** Rollback: ticks that are stepped on guesses, 0 … 15. 0: lockstep. */
   predictionTicks?: number;
-  /** Printable ASCII, 32 characters. */
+  /** At most 32 bytes of UTF-8; control characters become "?". */
   name?: string;
   /** `Client.rejoinKey` of a tab that was closed or reloaded: the same seat again. */
   rejoinKey?: bigint;
@@ -39,7 +39,8 @@ const KINDS = {
   [c.LKS_SESSION_DESYNC]: "desync", [c.LKS_SESSION_SILENT]: "silent", [c.LKS_SESSION_JOINED]: "joined",
   [c.LKS_SESSION_PLAYER_ACTIVE]: "player active", [c.LKS_SESSION_STATE_LOADED]: "state loaded",
   [c.LKS_SESSION_PAUSED]: "paused", [c.LKS_SESSION_INPUT_REPLACED]: "input replaced",
-  [c.LKS_SESSION_PREDICTED]: "predicted", [c.LKS_SESSION_ROLLED_BACK]: "rolled back",
+  [c.LKS_SESSION_NAMED]: "named", [c.LKS_SESSION_COMMAND]: "command",
+  [c.LKS_SESSION_COMMAND_REFUSED]: "command refused", [c.LKS_SESSION_PREDICTED]: "predicted", [c.LKS_SESSION_ROLLED_BACK]: "rolled back",
 } as const;
 
 /** Fields that the kind does not use are 0 or empty; see `lockstone_c/sessions.h`. */
@@ -52,7 +53,9 @@ export interface SessionEvent {
   otherHash: string;
   value: number;
   reason: number;
-  /** For people: of `desync` the tick, stage, body and field. */
+  /** Of `command`. */
+  bytes: Uint8Array;
+  /** For people: of `desync` the tick, stage, body and field; of `named` the name. */
   text: string;
 }
 
@@ -72,6 +75,8 @@ export interface ClientStats {
 
 const event = c.lks_session_event;
 const TEXT_BYTES = 512;
+const NAME_BYTES = 32;
+const NO_BYTES = new Uint8Array(0);
 const FIRST_PAUSE_MS = 250;
 const LONGEST_PAUSE_MS = 4000;
 const CALLS_OF_STRANGERS = 3;
@@ -85,8 +90,7 @@ function putDefinition(heap: Heap, options: ClientOptions): number {
   if (slot !== undefined) heap.putWord(at + def.wanted_slot, slot);
   if (options.predictionTicks !== undefined) heap.putWord(at + def.prediction_ticks, options.predictionTicks);
   if (options.rejoinKey !== undefined) heap.u64[(at + def.rejoin_key) >>> 3] = options.rejoinKey;
-  const name = new TextEncoder().encode((options.name ?? "browser").slice(0, 32));
-  heap.u8.set(name, at + def.name);
+  new TextEncoder().encodeInto(options.name ?? "browser", heap.u8.subarray(at + def.name, at + def.name + NAME_BYTES));
   return at;
 }
 
@@ -175,6 +179,20 @@ export class Client {
     heap.check(heap.f.lks_client_set_input(this.address, heap.input, bytes.length));
   }
 
+  /**
+   * Gives a command, 1 … 65,536 bytes: chat, a purchase. It comes back to everybody at a tick, as an event `command`.
+   * Returns its number, which an event `command refused` names.
+   */
+  sendCommand(bytes: Uint8Array): number {
+    const { heap } = this;
+    const room = heap.allocate(Math.max(bytes.length, 1));
+    heap.u8.set(bytes, room);
+    const status = heap.f.lks_client_send_command(this.address, room, bytes.length, heap.output);
+    heap.f.free(room);
+    heap.check(status);
+    return Number(heap.getId(heap.output));
+  }
+
   /** The input that the bot of `lockstone join` would press now, in the arena; null while there is no match. */
   botInput(seed: bigint): Uint8Array | null {
     const { heap } = this;
@@ -216,8 +234,8 @@ export class Client {
     return this.view(c.lks_client_view.paused) === 1;
   }
   /** Bit n: the match waits for slot n. */
-  get waitingMask(): number {
-    return this.view(c.lks_client_view.waiting_mask);
+  get waitingMask(): bigint {
+    return this.view64(c.lks_client_view.waiting);
   }
   private get mayReconnect(): boolean {
     return this.view(c.lks_client_view.may_reconnect) === 1;
@@ -227,6 +245,13 @@ export class Client {
   get reason(): string {
     const { heap } = this;
     heap.check(heap.f.lks_client_reason(this.address, heap.output, TEXT_BYTES));
+    return heap.text(heap.output);
+  }
+
+  /** The name that a slot's player gave; kept after it left. */
+  playerName(slot: number): string {
+    const { heap } = this;
+    heap.check(heap.f.lks_client_player_name(this.address, slot, heap.output, TEXT_BYTES));
     return heap.text(heap.output);
   }
 
@@ -336,20 +361,31 @@ export class Client {
     return this.readEvents();
   }
 
+  private commandAt(index: number, size: number): Uint8Array {
+    const { heap } = this;
+    const room = heap.allocate(size);
+    heap.check(heap.f.lks_client_event_bytes(this.address, index, room, size, heap.output));
+    const bytes = heap.u8.slice(room, room + size);
+    heap.f.free(room);
+    return bytes;
+  }
+
   private eventAt(index: number): SessionEvent {
     const { heap } = this;
     const at = this.events.room + index * event.$bytes;
     const number = heap.getWord(at + event.kind);
     const kind = KINDS[number as keyof typeof KINDS] ?? "other";
     let text = "";
-    if (number === c.LKS_SESSION_DESYNC || number === c.LKS_SESSION_FINISHED) {
+    if (number === c.LKS_SESSION_DESYNC || number === c.LKS_SESSION_NAMED || number === c.LKS_SESSION_FINISHED) {
       heap.check(heap.f.lks_client_event_text(this.address, index, heap.output, TEXT_BYTES));
       text = heap.text(heap.output);
     }
+    const value = Number(heap.i64[(at + event.value) >>> 3]!);
+    const bytes = number === c.LKS_SESSION_COMMAND ? this.commandAt(index, value) : NO_BYTES;
     return {
-      kind, text, slot: heap.getWord(at + event.slot), tick: Number(heap.getId(at + event.tick)),
+      kind, text, bytes, slot: heap.getWord(at + event.slot), tick: Number(heap.getId(at + event.tick)),
       hash: hex(heap.getId(at + event.hash)), otherHash: hex(heap.getId(at + event.other_hash)),
-      value: Number(heap.i64[(at + event.value) >>> 3]!), reason: heap.getWord(at + event.reason),
+      value, reason: heap.getWord(at + event.reason),
     };
   }
 }

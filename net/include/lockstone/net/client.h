@@ -44,7 +44,7 @@ enum class ClientFailure : std::uint8_t {
 struct ClientConfig {
   /// For a transport that does not encrypt; the server must ask for this too.
   bool insecure = false;
-  std::string name;                      ///< printable ASCII, the first 32 characters
+  std::string name;                      ///< as PlayerName takes it
   std::uint8_t wanted_slot = k_no_slot;  ///< k_no_slot: any; k_spectator_slot: only watch
   std::string build;             ///< of the game and the machine, for reports; 64 characters
   std::uint64_t rejoin_key = 0;  ///< Client::rejoin_key of a former process: the same seat again
@@ -93,6 +93,12 @@ class ClientObserver {
   /// From `tick` on, the player of `slot` plays: it came late, or came back.
   virtual void player_active(std::uint8_t slot, std::uint64_t tick);
   virtual void pause_changed(bool paused);
+  /// The player of `slot` has this name: told of all players, also of this one.
+  virtual void player_named(std::uint8_t slot, std::string_view name);
+  /// The commands of a tick that is about to be told as stepped, where it has any.
+  virtual void commands_stepped(std::uint64_t tick, std::span<const PlayerCommand> commands);
+  /// The server did not take a command: too many came, or it is too long for this match.
+  virtual void command_refused(std::uint64_t number);
   /// The server replaced this player's input for a tick: it came too late.
   virtual void input_replaced(std::uint64_t tick);
   /// Rollback: a tick was stepped on guesses. It may be stepped again, then told of again.
@@ -148,6 +154,12 @@ class Client {
   /// Opens the same seat again, also for another process; 0 before being seated.
   [[nodiscard]] std::uint64_t rejoin_key() const;
 
+  /// Gives a command, 1 … k_max_command_bytes bytes, which are copied. The server binds it to a
+  /// tick; everybody's simulation gets it there. Returns its number. invalid_argument for no bytes
+  /// or too many, or of a spectator; capacity_exhausted while too many are on their way; not_found
+  /// before being seated.
+  [[nodiscard]] Result<std::uint64_t> send_command(ByteView bytes);
+
   /// Asks the server's owner for something.
   void ask(AskKind kind, std::uint8_t topic = 0, std::uint8_t choice = 0);
   [[nodiscard]] bool paused() const;
@@ -162,6 +174,10 @@ class Client {
   [[nodiscard]] FinishReason finish_reason() const;
   [[nodiscard]] std::uint8_t slot() const;  ///< k_no_slot before being seated
 
+  /// The name of a slot's player, kept after it left; empty where it gave none, or before the
+  /// server told it.
+  [[nodiscard]] std::string_view player_name(std::uint8_t slot) const;
+
   /// How many confirmed ticks were stepped.
   [[nodiscard]] std::uint64_t ticks_stepped() const;
 
@@ -172,7 +188,7 @@ class Client {
   [[nodiscard]] std::optional<std::uint64_t> active_tick() const;
 
   /// Bit n: the match waits for slot n, as of the last word from the server.
-  [[nodiscard]] std::uint16_t waiting_mask() const;
+  [[nodiscard]] SlotMask waiting_mask() const;
 
   /// The simulation, once the server's offer was understood; else null. Do not step or load it.
   [[nodiscard]] Simulation* simulation() const;

@@ -60,6 +60,14 @@ enum class ServerState : std::uint8_t {
 };
 [[nodiscard]] std::string_view to_string(ServerState state);
 
+/// The commands that a server takes of each player. Two seconds' worth may come at once; more are
+/// refused, and the player is told.
+struct CommandLimits {
+  std::uint32_t max_bytes = k_max_command_bytes;  ///< of one; 0: none are taken
+  std::uint32_t per_second = 10;                  ///< 0: no limit
+  std::uint32_t bytes_per_second = 32 * 1024;     ///< 0: no limit
+};
+
 struct ServerConfig {
   /// Set this, and only this, for a transport that does not encrypt: anybody may then join, listen
   /// and forge.
@@ -70,7 +78,7 @@ struct ServerConfig {
   /// The match goes on from where the simulation stands, above tick 0: its server was killed. It
   /// waits for these slots' players (bit n: slot n), at most Timeouts::drop_us after the first
   /// came.
-  std::optional<std::uint16_t> resume_mask;
+  std::optional<SlotMask> resume_mask;
   std::uint8_t input_delay_ticks = 4;  ///< 0 … 60
   LatePolicy late_policy = LatePolicy::deadline;
   Substitute substitute = Substitute::repeat;
@@ -89,6 +97,7 @@ struct ServerConfig {
   std::uint16_t max_spectators = 0;           ///< 0 … 256
   std::uint32_t spectator_delay_ticks = 0;    ///< how old the newest tick is that they see
   std::uint32_t spectator_queue_ticks = 600;  ///< one that lacks more than these is dropped
+  CommandLimits commands;
   std::uint32_t entry_bytes_per_s = 1 << 20;  ///< of states sent to those who enter, all together
   Timeouts timeouts;
 };
@@ -102,6 +111,8 @@ class ServerObserver {
   /// simulates.
   virtual void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                               std::optional<std::uint64_t> hash);
+  /// The commands of a tick that is about to be told as confirmed, where it has any.
+  virtual void commands_confirmed(std::uint64_t tick, std::span<const PlayerCommand> commands);
   /// Relay: all players that reported this tick had this hash.
   virtual void hash_agreed(std::uint64_t tick, std::uint64_t hash);
   virtual void player_joined(std::uint8_t slot, std::string_view name);
@@ -146,6 +157,10 @@ class Server {
   /// Does all that is due: call at least once a tick. `now_us` never runs backwards.
   void update(std::int64_t now_us);
 
+  /// A command of the server's own (k_server_slot), for the next tick that has room. The bytes are
+  /// copied. invalid_argument for none or too many; capacity_exhausted while too many wait.
+  Status send_command(ByteView bytes);
+
   /// Ends the match after the ticks confirmed so far.
   void stop();
 
@@ -163,11 +178,14 @@ class Server {
   [[nodiscard]] std::size_t spectators() const;
 
   /// Bit n: slot n is seated.
-  [[nodiscard]] std::uint16_t present_mask() const;
+  [[nodiscard]] SlotMask present_mask() const;
 
   /// Bit n: the match waits for slot n's input, or for a word that it has the ticks and their
   /// hashes (LatePolicy::strict, Pacing::fast).
-  [[nodiscard]] std::uint16_t waiting_mask() const;
+  [[nodiscard]] SlotMask waiting_mask() const;
+
+  /// The name of a slot's player, kept after it left. `slot` is below the player count.
+  [[nodiscard]] std::string_view player_name(std::uint8_t slot) const;
 
   /// Counters of a slot's player, kept after it left. `slot` is below the player count.
   [[nodiscard]] PlayerStats stats(std::uint8_t slot) const;

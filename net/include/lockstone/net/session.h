@@ -8,6 +8,7 @@
 
 #include <lockstone/bytes.h>
 #include <lockstone/net/reasons.h>
+#include <lockstone/net/slot_mask.h>
 #include <lockstone/simulation.h>
 
 namespace lockstone::net {
@@ -31,8 +32,8 @@ enum class SetupError : std::uint8_t {
   insecure_on_secure_transport,  ///< it does encrypt, and every client of it expects that
   match_config_too_long,
   player_count_out_of_range,
-  input_bytes_out_of_range,
-  tick_rate_out_of_range,  ///< 1 … 1000
+  input_bytes_out_of_range,  ///< also: above k_max_tick_input_bytes for all players together
+  tick_rate_out_of_range,    ///< 1 … 1000
   input_delay_out_of_range,
   history_out_of_range,
   timeouts_out_of_range,
@@ -70,6 +71,7 @@ struct DesyncReport {
   Verdict verdict = Verdict::undecided;
   std::uint64_t hash_here = 0;  ///< the server's, or of the player that speaks for the others
   std::uint64_t hash_there = 0;
+  std::string name;  ///< of that player; empty where it gave none
   std::string part;  ///< of the state, where only its 128 bits showed that they differ; else empty
   StateDifference difference;  ///< `differs` is false if a dump or a describing simulation lacked
   ByteView dump_here;  ///< canonical snapshots, valid during the callback; empty when not had
@@ -77,8 +79,8 @@ struct DesyncReport {
   std::string build_here;  ///< from the player's Hello; the server's own: empty
   std::string build_there;
 
-  /// `tick 1842, player 2, body 17 "crate", velocity.y: 0x… here, 0x… there`; with the hashes
-  /// instead of a field where the difference is not known.
+  /// `tick 1842, player 2 "Ann", body 17 "crate", velocity.y: 0x… here, 0x… there`; with the
+  /// hashes instead of a field where the difference is not known.
   [[nodiscard]] std::string to_line() const;
 };
 
@@ -97,7 +99,9 @@ struct PlayerStats {
   std::uint64_t malformed_packets = 0;
   std::int32_t margin_quarters = 0;  ///< how early the newest inputs came, quarter ticks
   std::uint64_t entries = 0;         ///< how often it came into the running match
-  std::uint64_t resends = 0;         ///< requests for ticks that lacked between others
+  std::uint64_t commands_taken = 0;
+  std::uint64_t commands_refused = 0;  ///< too many, or too long
+  std::uint64_t resends = 0;           ///< requests for ticks that lacked between others
 };
 
 /// Traffic and progress of a client.

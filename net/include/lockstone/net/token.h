@@ -62,7 +62,7 @@ struct ServerList {
 struct TokenGrant {
   std::uint64_t match = 0;
   std::uint64_t player = 0;          ///< the backend's number for the account
-  std::uint8_t slot = 0;             ///< 0 … 15, or k_spectator_slot
+  std::uint8_t slot = 0;             ///< 0 … k_max_players - 1, or k_spectator_slot
   std::uint64_t expires_unix_s = 0;  ///< until then it opens connections; at most 2^40
   ServerList servers;                ///< none: any server that has the key
   friend bool operator==(const TokenGrant&, const TokenGrant&) = default;

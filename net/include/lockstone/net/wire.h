@@ -13,7 +13,9 @@
 #include <string_view>
 
 #include <lockstone/bytes.h>
+#include <lockstone/net/player_name.h>
 #include <lockstone/net/reasons.h>
+#include <lockstone/net/slot_mask.h>
 #include <lockstone/net/transport.h>
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
@@ -21,10 +23,9 @@
 namespace lockstone::net {
 
 inline constexpr std::uint32_t k_protocol_magic = 0x4e534b4c;  ///< "LKSN"
-inline constexpr std::uint16_t k_protocol_version = 4;
+inline constexpr std::uint16_t k_protocol_version = 5;
 inline constexpr std::uint8_t k_any_slot = 255;
 inline constexpr std::uint64_t k_max_tick = std::uint64_t{1} << 62;  ///< no tick or count is above
-inline constexpr std::size_t k_max_name_bytes = 32;
 inline constexpr std::size_t k_max_text_bytes = 96;
 inline constexpr std::size_t k_max_build_bytes = 64;
 inline constexpr std::size_t k_max_config_bytes = 32 * 1024;
@@ -56,6 +57,10 @@ enum class MessageType : std::uint8_t {
   ask = 18,
   paused = 19,
   parts = 20,
+  named = 21,
+  command = 22,
+  tick_command = 23,
+  command_result = 24,
 };
 [[nodiscard]] std::string_view to_string(MessageType type);
 
@@ -77,7 +82,6 @@ class FixedText {
   std::array<char, k_capacity> chars_{};
   std::size_t size_ = 0;
 };
-using NameText = FixedText<k_max_name_bytes>;
 using FieldText = FixedText<k_max_text_bytes>;
 using BuildText = FixedText<k_max_build_bytes>;
 
@@ -89,7 +93,7 @@ struct Hello {
   std::uint64_t rejoin_key = 0;           ///< from an earlier Welcome; 0: never was here
   std::uint64_t ticks_stepped = 0;        ///< the state after this many ticks is still here
   std::uint64_t state_hash = 0;           ///< its hash; 0 after 0 ticks
-  NameText name;
+  PlayerName name;
   BuildText build;  ///< of the game, and the processor: for reports
 };
 
@@ -121,7 +125,8 @@ struct Welcome {
   Pacing pacing = Pacing::real_time;
   std::uint64_t tick_count = 0;  ///< 0: until stopped
   Entry entry = Entry::lobby;
-  std::uint64_t rejoin_key = 0;  ///< opens the same seat again
+  std::uint64_t rejoin_key = 0;      ///< opens the same seat again
+  std::uint64_t commands_taken = 0;  ///< the seat's commands that came whole, or were refused
 };
 
 /// Server: the client does not play. `here` is the server's value, `there` the client's.
@@ -134,7 +139,7 @@ struct Refuse {
 
 /// Server: all are seated, tick 0 begins.
 struct Start {
-  std::uint16_t present_mask = 0;  ///< bit n: somebody sits in slot n
+  SlotMask present_mask = 0;  ///< bit n: somebody sits in slot n
 };
 
 /// How long the parts of a tick are.
@@ -143,13 +148,19 @@ struct TickShape {
   std::uint8_t input_bytes = 0;
 
   [[nodiscard]] std::size_t origin_bytes() const { return (player_count + std::size_t{3}) / 4; }
-  /// Two bits of origin a slot, then every slot's input.
+  /// Two bits of origin a slot, every slot's input, and the number of commands.
   [[nodiscard]] std::size_t record_bytes() const {
-    return origin_bytes() + std::size_t{player_count} * input_bytes;
+    return origin_bytes() + std::size_t{player_count} * input_bytes + 1;
   }
 };
+/// So that the largest tick fits into one datagram.
+inline constexpr std::size_t k_max_tick_input_bytes = 1024;  ///< of all players together
 inline constexpr std::size_t k_max_record_bytes =
-    (k_max_players + 3) / 4 + k_max_players * k_max_input_bytes;
+    (k_max_players + 3) / 4 + k_max_tick_input_bytes + 1;
+
+/// The commands of one tick.
+inline constexpr std::size_t k_max_tick_commands = 255;
+inline constexpr std::size_t k_max_tick_command_bytes = 256 * 1024;
 
 /// No inputs came since the last time that a margin was told.
 inline constexpr std::int8_t k_no_margin = -128;
@@ -173,7 +184,7 @@ struct Ticks {
   std::uint64_t ticks_confirmed = 0;          ///< how many ticks the server has confirmed
   std::uint64_t inputs_received = 0;          ///< this client need not send inputs below
   std::uint64_t hashes_received = 0;          ///< this client need not send hashes below
-  std::uint16_t waiting_mask = 0;             ///< slots that the match waits for (strict)
+  SlotMask waiting_mask = 0;                  ///< slots that the match waits for (strict)
   std::int8_t margin_quarters = k_no_margin;  ///< how early the last inputs came, quarter ticks
   ByteView coded;
 };
@@ -257,6 +268,34 @@ struct Parts {
   std::array<Hash128, k_max_state_parts> hashes{};
 };
 
+/// Server: the name of the player that sits in `slot`, or sat there last.
+struct Named {
+  std::uint8_t slot = 0;
+  PlayerName name;
+};
+
+/// Client: a piece of a command.
+struct CommandPiece {
+  std::uint32_t total_bytes = 0;  ///< 1 … k_max_command_bytes
+  std::uint32_t offset_bytes = 0;
+  ByteView chunk;  ///< 1 … k_max_chunk_bytes
+};
+
+/// Server: a piece of a command that belongs to a tick.
+struct TickCommand {
+  std::uint64_t tick = 0;
+  std::uint8_t slot = 0;  ///< of a player, or k_server_slot
+  std::uint32_t total_bytes = 0;
+  std::uint32_t offset_bytes = 0;
+  ByteView chunk;
+};
+
+/// Server: this client's command came whole, or is refused.
+struct CommandResult {
+  std::uint64_t number = 0;  ///< among all commands of the seat, from 0 on
+  bool taken = false;
+};
+
 /// Either: the last message of a connection.
 struct Bye {
   LeaveReason reason = LeaveReason::left;
@@ -284,6 +323,10 @@ struct Bye {
 [[nodiscard]] std::size_t encode(const Ask& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Paused& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Parts& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Named& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const CommandPiece& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const TickCommand& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const CommandResult& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Bye& message, std::span<std::byte> out);
 
 [[nodiscard]] Status decode(ByteView packet, Hello& message);
@@ -305,10 +348,15 @@ struct Bye {
 [[nodiscard]] Status decode(ByteView packet, Ask& message);
 [[nodiscard]] Status decode(ByteView packet, Paused& message);
 [[nodiscard]] Status decode(ByteView packet, Parts& message);
+[[nodiscard]] Status decode(ByteView packet, Named& message);
+[[nodiscard]] Status decode(ByteView packet, CommandPiece& message);
+[[nodiscard]] Status decode(ByteView packet, TickCommand& message);
+[[nodiscard]] Status decode(ByteView packet, CommandResult& message);
 [[nodiscard]] Status decode(ByteView packet, Bye& message);
 
 /// Header bytes of Inputs (without hashes) and Ticks: the rest of a datagram holds the records.
 inline constexpr std::size_t k_inputs_header_bytes = 1 + 8 + 8 + 1 + 8 + 1;
-inline constexpr std::size_t k_ticks_header_bytes = 1 + 8 + 1 + 8 + 8 + 8 + 2 + 1;
+inline constexpr std::size_t k_ticks_header_bytes = 1 + 8 + 1 + 8 + 8 + 8 + 8 + 1;
+static_assert(k_ticks_header_bytes + 1 + k_max_record_bytes <= k_max_datagram_bytes);
 
 }  // namespace lockstone::net

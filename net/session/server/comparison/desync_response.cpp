@@ -50,7 +50,7 @@ void DesyncResponse::condemn(std::uint8_t slot) {
   seat.await_state(0);
   seat.active_tick = k_never;
   data_.judge.set_present(slot, false);
-  match.waiting = static_cast<std::uint16_t>(match.waiting & ~(1U << slot));
+  match.waiting &= ~slot_bit(slot);
   const bool again = data_.offenders.was_resynced(seat.identity, slot);
   if (data_.config.desync_policy == DesyncPolicy::resync && !again) {
     data_.offenders.note_resync(seat.identity, slot);
@@ -106,7 +106,8 @@ bool DesyncResponse::server_is_wrong(const Mismatch& mismatch) {
   const std::size_t size = simulation.save(SnapshotKind::native, now);
   bool wrong = false;
   if (simulation.load(SnapshotKind::canonical, before) == Status::ok) {
-    simulation.step(RecordInputs(record, data_.shape).view());
+    step_tick(simulation, RecordInputs(record, data_.shape).view(),
+              data_.commands.of(mismatch.tick));
     wrong = simulation.hash() == mismatch.hash_there;
   }
   LKS_CHECK(simulation.load(SnapshotKind::native, ByteView(now).first(size)) == Status::ok);

@@ -28,12 +28,12 @@ void StateComparison::tell_agreed(const std::optional<Mismatch>& found) {
 // Only differences that the hashes of every tick miss.
 void StateComparison::compare_parts() {
   const std::uint64_t confirmed = data_.match.confirmed;
-  unsigned voters = 0;
+  SlotMask voters = 0;
   for (std::uint8_t slot = 0; slot < data_.roster.seats().size(); ++slot) {
-    if (data_.roster.seat(slot).plays(confirmed)) voters |= 1U << slot;
+    if (data_.roster.seat(slot).plays(confirmed)) voters |= slot_bit(slot);
   }
   PartsJudge& judge = data_.parts_judge;
-  judge.vote(static_cast<std::uint16_t>(voters), confirmed);
+  judge.vote(voters, confirmed);
   for (std::uint8_t slot = 0; slot < data_.roster.seats().size(); ++slot) {
     if (cases_.freeze_match()) return;
     const std::optional<PartMismatch> found = judge.found(slot);

@@ -33,7 +33,7 @@ struct Peer {
   BuildText build;
   std::int64_t since_us = 0;
   PeerWatch watch;
-  NameText name;
+  PlayerName name;
 
   /// Through the handshake.
   [[nodiscard]] bool is_admitted() const { return stage >= Stage::seated; }

@@ -9,11 +9,24 @@ namespace {
 
 constexpr std::size_t k_input_ring_ticks = 4 * k_input_window_ticks;
 
+// Two seconds' worth may come at once, and one of the longest always.
+SeatCommands commands_within(const CommandLimits& limits) {
+  SeatCommands commands;
+  if (limits.max_bytes > 0) {
+    commands.waiting = CommandBuffer(k_waiting_command_bytes, k_max_waiting_commands);
+  }
+  commands.rate = RateLimit(limits.per_second, 2 * limits.per_second);
+  commands.bytes_rate =
+      RateLimit(limits.bytes_per_second, std::max(2 * limits.bytes_per_second, limits.max_bytes));
+  return commands;
+}
+
 }  // namespace
 
 void Follower::await_state(std::uint64_t oldest_ticks) {
   loading = true;
   offered = false;
+  commands = {};
   oldest_entry = oldest_ticks;
 }
 
@@ -34,28 +47,32 @@ void Seat::occupy(Peer& player, std::int64_t now_us) {
   expelled = false;
   dump_bytes_allowed = 0;
   hashes_since_us = now_us;
+  own_commands.waiting.drop_incomplete();
+  own_commands.refused_bytes = 0;
 }
 
-Roster::Roster(const SimulationInfo& info, std::size_t spectators)
-    : seats_(info.player_count), watchers_(spectators) {
-  for (Seat& place : seats_)
+Roster::Roster(const SimulationInfo& info, const ServerConfig& config)
+    : seats_(info.player_count), watchers_(config.max_spectators) {
+  for (Seat& place : seats_) {
     place.inputs = TickRing(k_input_ring_ticks, info.input_bytes);
+    place.own_commands = commands_within(config.commands);
+  }
 }
 
-std::uint16_t Roster::present_mask() const {
-  unsigned mask = 0;
+SlotMask Roster::present_mask() const {
+  SlotMask mask = 0;
   for (std::size_t slot = 0; slot < seats_.size(); ++slot) {
-    if (seats_[slot].peer != nullptr) mask |= 1U << slot;
+    if (seats_[slot].peer != nullptr) mask |= slot_bit(slot);
   }
-  return static_cast<std::uint16_t>(mask);
+  return mask;
 }
 
-std::uint16_t Roster::active_mask() const {
-  unsigned mask = 0;
+SlotMask Roster::active_mask() const {
+  SlotMask mask = 0;
   for (std::size_t slot = 0; slot < seats_.size(); ++slot) {
-    if (seats_[slot].peer != nullptr && seats_[slot].active_tick != k_never) mask |= 1U << slot;
+    if (seats_[slot].peer != nullptr && seats_[slot].active_tick != k_never) mask |= slot_bit(slot);
   }
-  return static_cast<std::uint16_t>(mask);
+  return mask;
 }
 
 Follower* Roster::follower_of(const Peer& peer) {

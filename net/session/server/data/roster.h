@@ -8,6 +8,8 @@
 #include <lockstone/net/server.h>
 #include <lockstone/net/wire.h>
 
+#include "net/security/rate_limit.h"
+#include "net/session/command_buffer.h"
 #include "net/session/server/data/peers.h"
 #include "net/session/tick_ring.h"
 
@@ -15,6 +17,22 @@ namespace lockstone::net {
 
 /// No tick: a player with this `active_tick` does not play yet.
 inline constexpr std::uint64_t k_never = std::numeric_limits<std::uint64_t>::max();
+
+/// How far a follower has been sent the commands of ticks.
+struct CommandCursor {
+  bool found = false;      ///< its place among the match's commands is known
+  std::uint64_t next = 0;  ///< the command that is being sent
+  std::size_t sent = 0;    ///< bytes of it
+};
+
+/// The commands of a seat's player on their way to a tick.
+struct SeatCommands {
+  CommandBuffer waiting;
+  std::uint64_t taken = 0;        ///< came whole, or were refused, since the seat was made
+  std::size_t refused_bytes = 0;  ///< still to come of a command that is refused
+  RateLimit rate;
+  RateLimit bytes_rate;
+};
 
 /// Somebody to whom confirmed ticks go: a player, or a spectator.
 struct Follower {
@@ -31,6 +49,7 @@ struct Follower {
   std::uint64_t oldest_entry = 0;  ///< a state of fewer ticks does not help it
   std::size_t snapshot_sent = 0;
   unsigned bad_snapshots = 0;
+  CommandCursor commands;
 
   /// From now on it waits for a state after `oldest_ticks` ticks or more.
   void await_state(std::uint64_t oldest_ticks);
@@ -58,6 +77,8 @@ struct Seat : Follower {
   bool expelled = false;   ///< and for good
   bool confirmed = false;  ///< its player has spoken since it was told its key
   PlayerStats stats;
+  SeatCommands own_commands;
+  PlayerName name;  ///< of the player that sits here, or sat here last
 
   /// Its player is here and has a say in tick `tick`.
   [[nodiscard]] bool plays(std::uint64_t tick) const {
@@ -75,7 +96,7 @@ struct Watcher : Follower {
 /// The seats by slot, and the spectators' places. Neither grows after it is made.
 class Roster {
  public:
-  Roster(const SimulationInfo& info, std::size_t spectators);
+  Roster(const SimulationInfo& info, const ServerConfig& config);
 
   [[nodiscard]] std::vector<Seat>& seats() { return seats_; }
   [[nodiscard]] const std::vector<Seat>& seats() const { return seats_; }
@@ -87,10 +108,10 @@ class Roster {
   [[nodiscard]] bool is_slot(std::uint8_t slot) const { return slot < seats_.size(); }
 
   /// Bit n: slot n has a player here.
-  [[nodiscard]] std::uint16_t present_mask() const;
+  [[nodiscard]] SlotMask present_mask() const;
 
   /// Bit n: slot n's player is here and has a say, now or from a tick that is announced.
-  [[nodiscard]] std::uint16_t active_mask() const;
+  [[nodiscard]] SlotMask active_mask() const;
 
   /// The follower that a peer is; null for one that is still in the handshake.
   [[nodiscard]] Follower* follower_of(const Peer& peer);

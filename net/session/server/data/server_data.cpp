@@ -21,8 +21,9 @@ ServerData::ServerData(const ServerConfig& server_config, const ServerParts& ser
       schedule(info.tick_rate),
       records(config.history_ticks, shape.record_bytes()),
       snapshots(simulates() ? config.snapshot_ticks : 0, snapshot_bytes(parts.simulation)),
+      own_commands(k_waiting_command_bytes, k_max_waiting_commands),
       peers(*parts.transport, info.player_count + config.max_spectators + k_spare_places),
-      roster(info, config.max_spectators),
+      roster(info, config),
       judge(info.player_count, config.history_ticks, simulates()),
       parts_judge(simulates()) {
   match.end_tick = config.tick_count == 0 ? k_max_tick : config.tick_count;
@@ -68,6 +69,13 @@ std::optional<std::uint64_t> final_hash(const ServerData& data) {
   return data.judge.right().at(ticks - 1);
 }
 
+void tell_names(ServerData& data, const Peer& peer) {
+  for (std::uint8_t slot = 0; slot < data.roster.seats().size(); ++slot) {
+    const PlayerName& name = data.roster.seat(slot).name;
+    if (!name.view().empty()) data.peers.tell(peer, Named{slot, name});
+  }
+}
+
 Welcome welcome_of(const ServerData& data, std::uint8_t slot, Entry way) {
   const bool plays = data.roster.is_slot(slot);
   const std::uint64_t key = plays ? data.roster.seat(slot).rejoin_key : 0;
@@ -78,7 +86,8 @@ Welcome welcome_of(const ServerData& data, std::uint8_t slot, Entry way) {
           data.config.pacing,
           data.config.tick_count,
           way,
-          key};
+          key,
+          plays ? data.roster.seat(slot).own_commands.taken : 0};
 }
 
 }  // namespace lockstone::net

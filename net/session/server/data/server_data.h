@@ -32,7 +32,7 @@ struct MatchStatus {
   std::int64_t state_since_us = 0;
   std::uint64_t confirmed = 0;         ///< the inputs of ticks 0 … confirmed - 1 are final
   std::uint64_t end_tick = 0;          ///< the match has ticks below
-  std::uint16_t waiting = 0;           ///< bit n: the next tick waits for slot n
+  SlotMask waiting = 0;                ///< bit n: the next tick waits for slot n
   std::int64_t waiting_since_us = 0;   ///< since then, if it waits for any
   bool paused = false;                 ///< no tick is confirmed
   std::int64_t expected_until_us = 0;  ///< resumed: so long somebody may come back
@@ -76,6 +76,9 @@ struct ServerData {
   TickRing records;    ///< inputs of the last confirmed ticks
   TickRing snapshots;  ///< canonical states after the last ticks, where the server simulates
 
+  TickCommands commands;       ///< of the last confirmed ticks
+  CommandBuffer own_commands;  ///< the server's, which wait for their tick
+
   // Those who take part.
   Peers peers;
   Roster roster;
@@ -93,6 +96,9 @@ struct ServerData {
 
 /// The hash of the state after the last confirmed tick, if it is known.
 [[nodiscard]] std::optional<std::uint64_t> final_hash(const ServerData& data);
+
+/// Tells a peer that was just admitted the names of the players in all seats.
+void tell_names(ServerData& data, const Peer& peer);
 
 /// The greeting of a client that is admitted to `slot`.
 [[nodiscard]] Welcome welcome_of(const ServerData& data, std::uint8_t slot, Entry way);

@@ -23,6 +23,7 @@ DesyncReport report_of(const ServerData& data, const DesyncCase& found) {
   report.verdict = mismatch.verdict;
   report.hash_here = mismatch.hash_here;
   report.hash_there = mismatch.hash_there;
+  report.name = data.roster.seat(mismatch.slot).name.view();
   report.part = found.part;
   report.build_here = build_of(data, mismatch.reference);
   report.build_there = build_of(data, mismatch.slot);

@@ -175,6 +175,9 @@ void Admission::seat(Peer& peer, std::uint8_t slot) {
   } else {
     entry_.begin(slot, peer);
   }
+  tell_names(data_, peer);
+  seat.name = peer.name;
+  data_.peers.send_to_admitted(Named{slot, seat.name});
   data_.observer->player_joined(slot, peer.name.view());
 }
 

@@ -35,6 +35,7 @@ void Spectators::admit(Peer& peer) {
   } else {
     welcome_to_running_match(*watcher);
   }
+  tell_names(data_, peer);
 }
 
 // From where it was, or the first tick, where all ticks since are still there and not too many.
@@ -97,7 +98,8 @@ void Spectators::tell_end() {
   const std::uint64_t confirmed = data_.match.confirmed;
   const std::optional<std::uint64_t> hash = final_hash(data_);
   for (Watcher& watcher : data_.roster.watchers()) {
-    const bool all_seen = watcher.loading || watcher.ticks_received == confirmed;
+    const bool all_seen = watcher.loading || (watcher.ticks_received == confirmed &&
+                                              watcher.commands.next == data_.commands.ring().end());
     if (watcher.peer == nullptr || watcher.finish_sent || !all_seen) continue;
     watcher.finish_sent = true;
     data_.peers.tell(*watcher.peer, Finish{data_.match.finish_reason, confirmed, hash.has_value(),

@@ -11,14 +11,14 @@ constexpr std::uint64_t k_owed_hashes = 64;  // more than these are not merely o
 
 }  // namespace
 
-std::uint16_t Laggards::missing_inputs_mask() const {
+SlotMask Laggards::missing_inputs_mask() const {
   const std::uint64_t tick = data_.match.confirmed;
-  unsigned mask = 0;
+  SlotMask mask = 0;
   for (std::uint8_t slot = 0; slot < data_.roster.seats().size(); ++slot) {
     const Seat& seat = data_.roster.seat(slot);
-    if (seat.plays(tick) && seat.inputs_next <= tick) mask |= 1U << slot;
+    if (seat.plays(tick) && seat.inputs_next <= tick) mask |= slot_bit(slot);
   }
-  return static_cast<std::uint16_t>(mask);
+  return mask;
 }
 
 // How many ticks, or their hashes, the player has not confirmed.
@@ -32,23 +32,23 @@ std::uint64_t Laggards::ticks_behind(std::uint8_t slot) const {
 // Where the match may wait, it does so before a player loses ticks or snapshots. For newcomers it
 // waits only if nothing else would slow it down. A player that holds it without a sign of progress
 // is dropped in the end, as one that sends no inputs is.
-std::uint16_t Laggards::behind_mask() const {
-  unsigned mask = 0;
+SlotMask Laggards::behind_mask() const {
+  SlotMask mask = 0;
   for (std::uint8_t slot = 0; slot < data_.roster.seats().size(); ++slot) {
     const Seat& seat = data_.roster.seat(slot);
     if (!seat.needs_ticks()) continue;
     const bool plays = seat.active_tick <= data_.match.confirmed;
     if (!plays && data_.config.pacing != Pacing::fast) continue;
-    if (ticks_behind(slot) >= data_.config.history_ticks / 2) mask |= 1U << slot;
+    if (ticks_behind(slot) >= data_.config.history_ticks / 2) mask |= slot_bit(slot);
   }
-  return static_cast<std::uint16_t>(mask);
+  return mask;
 }
 
 void Laggards::drop_waited_for() {
-  const std::uint16_t mask = data_.match.waiting;
+  const SlotMask mask = data_.match.waiting;
   data_.match.waiting = 0;
   for (Seat& seat : data_.roster.seats()) {
-    if (seat.peer == nullptr || ((mask >> seat.peer->slot) & 1) == 0) continue;
+    if (seat.peer == nullptr || !has_slot(mask, seat.peer->slot)) continue;
     // A state that is still being sent is no fault of its receiver.
     if (seat.loading && !states_.is_sent(seat)) continue;
     departures_.drop(*seat.peer, LeaveReason::timed_out);

@@ -16,10 +16,10 @@ class Laggards {
       : data_(data), states_(states), departures_(departures) {}
 
   /// Bit n: slot n's input for the next tick has not come.
-  [[nodiscard]] std::uint16_t missing_inputs_mask() const;
+  [[nodiscard]] SlotMask missing_inputs_mask() const;
 
   /// Bit n: slot n is about to lose ticks or snapshots that it needs.
-  [[nodiscard]] std::uint16_t behind_mask() const;
+  [[nodiscard]] SlotMask behind_mask() const;
 
   /// Drops those for whom the match has waited too long.
   void drop_waited_for();

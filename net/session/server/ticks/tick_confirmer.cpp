@@ -47,8 +47,7 @@ bool TickConfirmer::may_confirm_next() {
   if (!fast && match.now_us < due_us) return false;
   const bool waits = fast || data_.config.late_policy == LatePolicy::strict;
   const Laggards& laggards = uses_.laggards;
-  const auto missing = static_cast<std::uint16_t>(
-      waits ? laggards.missing_inputs_mask() | laggards.behind_mask() : 0);
+  const SlotMask missing = waits ? laggards.missing_inputs_mask() | laggards.behind_mask() : 0;
   if (missing != 0 && match.waiting == 0) match.waiting_since_us = match.now_us;
   match.waiting = missing;
   if (missing != 0) return false;
@@ -70,23 +69,26 @@ void TickConfirmer::confirm_next() {
   if (match.state != ServerState::running) return;
   const std::span<std::byte> record = data_.records.claim(match.confirmed);
   uses_.inputs.fill_next(record);
+  set_command_count(record, uses_.commands.bind_to_next_tick());
   data_.records.commit(match.confirmed, record.size());
   const std::optional<std::uint64_t> hash = step_simulation(record);
   const std::uint64_t tick = match.confirmed++;
   if (data_.simulates()) uses_.states.keyframes().note(*data_.parts.simulation);
+  const std::span<const PlayerCommand> commands = data_.commands.of(tick);
+  if (!commands.empty()) data_.observer->commands_confirmed(tick, commands);
   data_.observer->tick_confirmed(tick, RecordInputs(record, data_.shape).view(), hash);
 }
 
 std::optional<std::uint64_t> TickConfirmer::step_simulation(ByteView record) {
   if (!data_.simulates()) return std::nullopt;
   Simulation& simulation = *data_.parts.simulation;
-  simulation.step(RecordInputs(record, data_.shape).view());
+  const std::uint64_t tick = data_.match.confirmed;
+  step_tick(simulation, RecordInputs(record, data_.shape).view(), data_.commands.of(tick));
   const bool checks_parts = simulation.tick() % k_parts_interval_ticks == 0;
   if (checks_parts) data_.parts_judge.note_own(parts_of(simulation));
   const std::uint64_t hash = simulation.hash();
   data_.judge.push_own(hash);
   TickRing& snapshots = data_.snapshots;
-  const std::uint64_t tick = data_.match.confirmed;
   if (snapshots.keeps_records()) {
     const std::size_t size = simulation.save(SnapshotKind::canonical, snapshots.claim(tick));
     snapshots.commit(tick, size);

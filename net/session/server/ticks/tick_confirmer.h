@@ -11,6 +11,7 @@
 #include "net/session/server/desync/desync_cases.h"
 #include "net/session/server/entry/entry_states.h"
 #include "net/session/server/leaving/match_end.h"
+#include "net/session/server/ticks/command_intake.h"
 #include "net/session/server/ticks/input_intake.h"
 #include "net/session/server/ticks/laggards.h"
 
@@ -25,6 +26,7 @@ class TickConfirmer {
     const DesyncCases& cases;
     EntryStates& states;
     InputIntake& inputs;
+    CommandIntake& commands;
     Laggards& laggards;
     MatchEnd& end;
   };

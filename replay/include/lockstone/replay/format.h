@@ -14,7 +14,10 @@
 namespace lockstone::replay {
 
 /// The version of the file header and of the chunk frame. Each chunk type has its own version too.
-inline constexpr std::uint16_t k_format_version = 3;
+/// Readers take the version before as well, which had at most k_old_max_players.
+inline constexpr std::uint16_t k_format_version = 4;
+inline constexpr std::uint16_t k_oldest_format_version = 3;
+inline constexpr std::size_t k_old_max_players = 16;
 inline constexpr std::uint8_t k_chunk_version = 1;
 
 /// Bounds that hold for every log. Readers refuse more before they allocate anything.
@@ -28,6 +31,8 @@ inline constexpr std::size_t k_max_keyframe_bytes = 64U << 20;  ///< one canonic
 /// A compressed payload is at most this many times as long as its stored bytes, so that a reader
 /// needs memory and time in proportion to the file.
 inline constexpr std::size_t k_max_compression_ratio = 32;
+inline constexpr std::size_t k_max_command_chunk_bytes = 1U << 20;
+inline constexpr std::size_t k_max_tick_commands = 255;
 inline constexpr std::uint64_t k_max_start_tick = std::uint64_t{1} << 62;
 
 /// Bytes of the frame in front of every chunk's payload.
@@ -47,6 +52,7 @@ enum class ChunkType : std::uint8_t {
   index = 7,      ///< where the keyframes are; can be found again without it
   end = 8,        ///< the recorder finished in order
   signature = 9,  ///< an Ed25519 signature over all that stands before it
+  command = 10,   ///< player commands of ticks of the INPUT chunk after it
 };
 
 /// "INPUT", "HASH", …; "chunk" for a type that this build does not know.
@@ -101,6 +107,7 @@ enum class EventKind : std::uint8_t {
   leave = 2,
   substitution = 3,  ///< for people: the origins in the INPUT chunks are decisive
   note = 4,
+  name = 5,  ///< the text is the name of the slot's player from here on
 };
 
 /// "join", …; "event" for a kind that this build does not know.

@@ -23,6 +23,12 @@ struct InputDifference {
   std::uint8_t there = 0;
 };
 
+/// The first command that differs, or that one log lacks.
+struct CommandDifference {
+  std::uint64_t tick = 0;
+  std::size_t index = 0;  ///< among the tick's commands
+};
+
 struct HashDifference {
   std::uint64_t tick = 0;
   std::uint64_t here = 0;
@@ -37,6 +43,7 @@ struct LogComparison {
   std::uint64_t first_tick = 0;  ///< the ticks that both hold: first_tick …
   std::uint64_t ticks = 0;       ///< … this many
   std::optional<InputDifference> input;
+  std::optional<CommandDifference> command;
   std::optional<HashDifference> hash;
   std::uint64_t end_here = 0;  ///< the tick behind the last
   std::uint64_t end_there = 0;
@@ -46,7 +53,7 @@ struct LogComparison {
 
   [[nodiscard]] bool same() const;
 
-  /// The first tick at which the inputs or the hashes differ.
+  /// The first tick at which the inputs, the commands or the hashes differ.
   [[nodiscard]] std::optional<std::uint64_t> first_difference() const;
 };
 

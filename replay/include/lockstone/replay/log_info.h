@@ -35,6 +35,9 @@ struct LogInfo {
   std::vector<std::uint64_t> keyframe_ticks;
   std::vector<LogEvent> events;  ///< the first k_max_listed_events
   std::uint64_t event_count = 0;
+  std::uint64_t commands = 0;                       ///< of players and the server
+  std::uint64_t command_bytes = 0;                  ///< of all together
+  std::vector<std::string> player_names;            ///< by slot, the last of each; empty: not told
   std::array<std::uint64_t, 4> inputs_by_origin{};  ///< indexed by InputOrigin, over all slots
   bool complete = false;
   bool torn_tail = false;

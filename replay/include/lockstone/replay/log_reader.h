@@ -21,6 +21,7 @@ enum class LogItem : std::uint8_t {
   inputs,    ///< tick_inputs(), whose hashes should come next
   hashes,    ///< hashes() of the same ticks; tick_inputs() still holds them
   keyframe,  ///< keyframe_hash(), snapshot()
+  commands,  ///< tick_commands() of the inputs that come next
   events,    ///< events()
   end,       ///< end()
   skipped,   ///< a chunk of a type that this build does not know, marked as one to skip
@@ -74,6 +75,9 @@ class LogReader {
 
   /// Inputs of tick `chunk().first_tick + index`, in slot order; index < chunk().count.
   [[nodiscard]] std::span<const PlayerInput> tick_inputs(std::size_t index) const;
+
+  /// Commands of that tick, in their order; they last as long as the inputs.
+  [[nodiscard]] std::span<const PlayerCommand> tick_commands(std::size_t index) const;
 
   /// The state hash after each tick of the chunk.
   [[nodiscard]] std::span<const std::uint64_t> hashes() const;

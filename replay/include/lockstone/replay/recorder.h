@@ -69,6 +69,11 @@ class Recorder {
   /// keyframe_bytes_max above k_max_keyframe_bytes, or a signing key in a build that cannot sign.
   Status begin(const SimulationInfo& info, ByteView config, const MatchMetadata& match);
 
+  /// The commands of the next tick, before its record_tick(); none are fine. invalid_argument, and
+  /// nothing is recorded, for one of no bytes or too many, of a slot that does not exist, or for
+  /// more than k_max_tick_commands or k_max_command_chunk_bytes allow for a tick.
+  Status record_commands(std::span<const PlayerCommand> commands);
+
   /// Records that `inputs` took the match from `tick` to `tick + 1`, whose state hashes to `hash`.
   /// invalid_argument, and nothing is recorded, when `tick` is not next_tick(), when the inputs are
   /// not one of SimulationInfo::input_bytes for each slot, or when the log starts above tick 0 and
@@ -112,7 +117,6 @@ class Recorder {
   struct Buffers;
 
   [[nodiscard]] Status check_recording() const;
-  [[nodiscard]] bool fits(std::span<const PlayerInput> inputs) const;
   void allocate(ByteView config);
   void start_chunk();
   Status write_beginning(const LogHeader& header, ByteView config);

@@ -33,6 +33,10 @@ class TickReader {
   [[nodiscard]] std::span<const PlayerInput> inputs() const {
     return reader_.tick_inputs(position_);
   }
+  /// In the order in which they act, before the inputs.
+  [[nodiscard]] std::span<const PlayerCommand> commands() const {
+    return reader_.tick_commands(position_);
+  }
   /// After the tick.
   [[nodiscard]] std::uint64_t hash() const { return reader_.hashes()[position_]; }
 

@@ -35,7 +35,7 @@ typedef struct lks_client_def {
   uint64_t rejoin_key;             /* of a former process: the same seat again */
   int64_t handshake_us;
   int64_t drop_us;
-  char name[40];  /* printable ASCII, the first 32 characters; terminated */
+  char name[40];  /* UTF-8, at most 32 bytes, no control characters; terminated */
   char build[72]; /* of the game and the machine, for reports; terminated */
 } lks_client_def;
 LKS_API lks_status lks_client_def_init(lks_client_def* def, size_t size);
@@ -72,6 +72,16 @@ LKS_API lks_status lks_client_events(const lks_client* client, lks_session_event
 LKS_API lks_status lks_client_event_text(const lks_client* client, size_t index, char* out,
                                          size_t capacity);
 
+/* The bytes of a command (LKS_SESSION_COMMAND). `count` is their number. */
+LKS_API lks_status lks_client_event_bytes(const lks_client* client, size_t index, void* out,
+                                          size_t capacity, size_t* count);
+
+/* Gives a command: 1 … 65536 bytes, which are copied. The server binds it to a tick, at which
+ * everybody's simulation gets it. `number` (may be null) is named where the server refuses it.
+ * LKS_CAPACITY_EXHAUSTED: too many are on their way; LKS_NOT_FOUND: not seated. */
+LKS_API lks_status lks_client_send_command(lks_client* client, const void* bytes, size_t count,
+                                           uint64_t* number);
+
 typedef struct lks_client_view {
   uint32_t size;
   uint32_t state;           /* LKS_CLIENT_… */
@@ -82,13 +92,19 @@ typedef struct lks_client_view {
   uint32_t finish_reason;
   uint32_t may_reconnect; /* 1: lks_client_reconnect may help */
   uint32_t paused;
-  uint32_t waiting_mask; /* bit n: the match waits for slot n */
+  uint32_t waiting_mask; /* the lower half of `waiting` */
   uint32_t reserved;     /* 0 */
+  uint64_t waiting;      /* bit n: the match waits for slot n */
 } lks_client_view;
 LKS_API lks_status lks_client_get(const lks_client* client, lks_client_view* view);
 
 /* Why the client was refused or failed, for people; empty otherwise. */
 LKS_API lks_status lks_client_reason(const lks_client* client, char* out, size_t capacity);
+
+/* The name of a slot's player, terminated; empty where it gave none, or before the server told it.
+ * Kept after the player left. 33 bytes hold every name. */
+LKS_API lks_status lks_client_player_name(const lks_client* client, uint32_t slot, char* out,
+                                          size_t capacity);
 
 /* The simulation, for reading; LKS_NOT_FOUND before the server's offer was understood. */
 LKS_API lks_status lks_client_simulation(const lks_client* client, lks_simulation** out);

@@ -54,9 +54,9 @@ LKS_API lks_status lks_simulation_tick(const lks_simulation* simulation, uint64_
 /* The match that the table's `create` made; null for a built-in game. Do not step it yourself. */
 LKS_API lks_status lks_simulation_match(const lks_simulation* simulation, void** out);
 
-/* The world of a match of a built-in game, to be looked at and drawn: it takes no command and is not
- * stepped, saved or loaded by itself (LKS_READ_ONLY). LKS_NOT_FOUND: the game is another. It keeps the
- * simulation alive. */
+/* The world of a match of a built-in game, to be looked at and drawn: it takes no command and is
+ * not stepped, saved or loaded by itself (LKS_READ_ONLY). LKS_NOT_FOUND: the game is another. It
+ * keeps the simulation alive. */
 LKS_API lks_status lks_simulation_world(const lks_simulation* simulation, lks_world** out);
 
 enum {
@@ -71,6 +71,10 @@ enum {
  * of a session, which steps it itself. */
 LKS_API lks_status lks_simulation_step(lks_simulation* simulation, const void* inputs, size_t bytes,
                                        const uint32_t* origins);
+
+/* A command of the next tick, from a slot or LKS_SERVER_SLOT; right before its step. */
+LKS_API lks_status lks_simulation_command(lks_simulation* simulation, uint32_t slot,
+                                          const void* bytes, size_t count);
 
 /* A hash over everything that can change the future. */
 LKS_API lks_status lks_simulation_hash(const lks_simulation* simulation, uint64_t* out);

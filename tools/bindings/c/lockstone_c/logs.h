@@ -68,6 +68,10 @@ typedef struct lks_log_info {
 /* Reads the whole log, without simulating anything. `info->size` must be set. */
 LKS_API lks_status lks_log_get_info(lks_log* log, lks_log_info* info);
 
+/* Reads the whole log for the last name of a slot's player; terminated, empty where it tells none.
+ * 257 bytes hold every name. */
+LKS_API lks_status lks_log_player_name(lks_log* log, uint32_t slot, char* out, size_t capacity);
+
 /* The configuration bytes, for the game. `count` is their number. */
 LKS_API lks_status lks_log_config(lks_log* log, void* out, size_t capacity, size_t* count);
 
@@ -76,6 +80,11 @@ LKS_API lks_status lks_log_config(lks_log* log, void* out, size_t capacity, size
  * LKS_BUFFER_TOO_SMALL, and the tick comes again: `bytes` is less than all inputs take. */
 LKS_API lks_status lks_log_next(lks_log* log, uint64_t* tick, void* inputs, size_t bytes,
                                 uint32_t* origins, uint64_t* hash);
+
+/* The command `index`, from 0 on, of the tick that was read last: its slot and its bytes, whose
+ * number is `count`. LKS_NOT_FOUND: the tick has no more. */
+LKS_API lks_status lks_log_command(lks_log* log, size_t index, uint32_t* slot, void* out,
+                                   size_t capacity, size_t* count);
 
 /* The simulation at a tick: from the last keyframe before it, with the log's inputs. lks_log_next
  * goes on from there. LKS_NOT_FOUND: the log does not reach so far; LKS_INCOMPATIBLE: it is of

@@ -38,10 +38,14 @@ typedef struct lks_server_def {
   uint32_t start_players;  /* the match begins with this many; 0: with all */
   uint32_t max_spectators; /* 0 … 256 */
   uint32_t spectator_delay_ticks;
-  uint64_t tick_count;  /* ticks to play; 0: until lks_server_stop */
-  uint64_t rejoin_seed; /* random bits: who guesses a key of it gets the seat */
-  int64_t drop_us;      /* a peer that is silent so long is gone */
-  int64_t rejoin_us;    /* so long a lost player's seat is kept */
+  uint64_t tick_count;               /* ticks to play; 0: until lks_server_stop */
+  uint64_t rejoin_seed;              /* random bits: who guesses a key of it gets the seat */
+  int64_t drop_us;                   /* a peer that is silent so long is gone */
+  int64_t rejoin_us;                 /* so long a lost player's seat is kept */
+  uint32_t command_bytes_max;        /* of one command of a player; 0: none are taken */
+  uint32_t commands_per_second;      /* of each player; twice as many at once; 0: no limit */
+  uint32_t command_bytes_per_second; /* likewise */
+  uint32_t reserved;                 /* 0 */
 } lks_server_def;
 LKS_API lks_status lks_server_def_init(lks_server_def* def, size_t size);
 
@@ -67,6 +71,13 @@ LKS_API lks_status lks_server_events(const lks_server* server, lks_session_event
 LKS_API lks_status lks_server_event_text(const lks_server* server, size_t index, char* out,
                                          size_t capacity);
 
+/* As lks_client_event_bytes. */
+LKS_API lks_status lks_server_event_bytes(const lks_server* server, size_t index, void* out,
+                                          size_t capacity, size_t* count);
+
+/* A command of the server's own, from LKS_SERVER_SLOT: as lks_client_send_command. */
+LKS_API lks_status lks_server_send_command(lks_server* server, const void* bytes, size_t count);
+
 /* From the next tick on each tick is written to this log, joins and leaves too. The log must be of
  * the server's simulation and stand at its tick. Not for a relay. */
 LKS_API lks_status lks_server_record(lks_server* server, lks_recorder* recorder);
@@ -82,13 +93,19 @@ typedef struct lks_server_view {
   uint32_t state; /* LKS_SERVER_… */
   uint64_t ticks_closed;
   uint32_t finish_reason; /* from LKS_SERVER_CLOSING on */
-  uint32_t present_mask;  /* bit n: slot n is seated */
-  uint32_t waiting_mask;  /* bit n: the match waits for slot n */
+  uint32_t present_mask;  /* the lower halves of `present` and `waiting` */
+  uint32_t waiting_mask;
   uint32_t spectators;
   uint32_t paused;
   uint32_t reserved; /* 0 */
+  uint64_t present;  /* bit n: slot n is seated */
+  uint64_t waiting;  /* bit n: the match waits for slot n */
 } lks_server_view;
 LKS_API lks_status lks_server_get(const lks_server* server, lks_server_view* view);
+
+/* As lks_client_player_name. */
+LKS_API lks_status lks_server_player_name(const lks_server* server, uint32_t slot, char* out,
+                                          size_t capacity);
 
 /* Kept after the player left. */
 LKS_API lks_status lks_server_stats(const lks_server* server, uint32_t slot,

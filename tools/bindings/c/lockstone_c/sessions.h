@@ -12,6 +12,7 @@ extern "C" {
 
 #define LKS_NO_SLOT 255u        /* any seat, or none yet */
 #define LKS_SPECTATOR_SLOT 254u /* only watches */
+#define LKS_SERVER_SLOT 253u    /* of commands: the server itself */
 
 /* Kinds of session events; new ones may be added. `tick`, `slot`, … name the fields that are used;
  * all others are 0. */
@@ -23,6 +24,8 @@ enum {
   LKS_SESSION_SILENT = 5,        /* slot (server), value: since how many µs nothing came */
   LKS_SESSION_JOINED = 6,        /* slot; text: the player's name (server) */
   LKS_SESSION_PLAYER_ACTIVE = 7, /* slot, tick: from then on it plays */
+  LKS_SESSION_NAMED = 8,         /* slot; text: the name of its player (client) */
+  LKS_SESSION_COMMAND = 9,       /* tick, slot, value: its bytes, see lks_client_event_bytes */
   /* Of a server. */
   LKS_SESSION_LEFT = 16,    /* slot, reason; text */
   LKS_SESSION_REFUSED = 17, /* reason; text */
@@ -32,7 +35,8 @@ enum {
   LKS_SESSION_PAUSED = 33,         /* value: 1 paused, 0 goes on */
   LKS_SESSION_INPUT_REPLACED = 34, /* tick: this player's input came too late */
   LKS_SESSION_PREDICTED = 35,      /* tick: stepped on guesses, and possibly again */
-  LKS_SESSION_ROLLED_BACK = 36     /* tick, value: that many guessed ticks from `tick` are void */
+  LKS_SESSION_ROLLED_BACK = 36,    /* tick, value: that many guessed ticks from `tick` are void */
+  LKS_SESSION_COMMAND_REFUSED = 37 /* value: its number */
 };
 
 typedef struct lks_session_event {
@@ -72,6 +76,8 @@ typedef struct lks_session_stats {
   uint64_t rollbacks; /* of a client */
   uint64_t ticks_stepped_again;
   uint64_t states_loaded;
+  uint64_t commands_taken; /* of a server's player */
+  uint64_t commands_refused;
 } lks_session_stats;
 
 #ifdef __cplusplus

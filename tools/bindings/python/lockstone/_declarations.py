@@ -121,6 +121,7 @@ LKS_DESYNC_KICK = 1
 LKS_DESYNC_RESYNC = 2
 LKS_NO_SLOT = 255
 LKS_SPECTATOR_SLOT = 254
+LKS_SERVER_SLOT = 253
 LKS_SESSION_STARTED = 1
 LKS_SESSION_TICK = 2
 LKS_SESSION_FINISHED = 3
@@ -128,6 +129,8 @@ LKS_SESSION_DESYNC = 4
 LKS_SESSION_SILENT = 5
 LKS_SESSION_JOINED = 6
 LKS_SESSION_PLAYER_ACTIVE = 7
+LKS_SESSION_NAMED = 8
+LKS_SESSION_COMMAND = 9
 LKS_SESSION_LEFT = 16
 LKS_SESSION_REFUSED = 17
 LKS_SESSION_ASKED = 18
@@ -136,6 +139,7 @@ LKS_SESSION_PAUSED = 33
 LKS_SESSION_INPUT_REPLACED = 34
 LKS_SESSION_PREDICTED = 35
 LKS_SESSION_ROLLED_BACK = 36
+LKS_SESSION_COMMAND_REFUSED = 37
 LKS_ASK_PAUSE = 0
 LKS_ASK_RESUME = 1
 LKS_ASK_VOTE = 2
@@ -359,6 +363,7 @@ class lks_client_view(Structure):
         ("paused", c_uint32),
         ("waiting_mask", c_uint32),
         ("reserved", c_uint32),
+        ("waiting", c_uint64),
     ]
 
 
@@ -675,6 +680,10 @@ class lks_server_def(Structure):
         ("rejoin_seed", c_uint64),
         ("drop_us", c_int64),
         ("rejoin_us", c_int64),
+        ("command_bytes_max", c_uint32),
+        ("commands_per_second", c_uint32),
+        ("command_bytes_per_second", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -689,6 +698,8 @@ class lks_server_view(Structure):
         ("spectators", c_uint32),
         ("paused", c_uint32),
         ("reserved", c_uint32),
+        ("present", c_uint64),
+        ("waiting", c_uint64),
     ]
 
 
@@ -721,6 +732,8 @@ class lks_session_stats(Structure):
         ("rollbacks", c_uint64),
         ("ticks_stepped_again", c_uint64),
         ("states_loaded", c_uint64),
+        ("commands_taken", c_uint64),
+        ("commands_refused", c_uint64),
     ]
 
 
@@ -975,6 +988,7 @@ class lockstone_game_table(Structure):
         ("scene_count", c_size_t),
         ("keep_history", CFUNCTYPE(None, c_void_p, c_uint32)),
         ("forget_history", CFUNCTYPE(None, c_void_p)),
+        ("command", CFUNCTYPE(None, c_void_p, c_uint32, c_void_p, c_size_t)),
     ]
 
 
@@ -1044,8 +1058,11 @@ FUNCTIONS = {
     "lks_client_update": [c_int32, c_void_p, c_int64],
     "lks_client_events": [c_int32, c_void_p, POINTER(lks_session_event), c_size_t, POINTER(c_size_t)],
     "lks_client_event_text": [c_int32, c_void_p, c_size_t, c_void_p, c_size_t],
+    "lks_client_event_bytes": [c_int32, c_void_p, c_size_t, c_void_p, c_size_t, POINTER(c_size_t)],
+    "lks_client_send_command": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_uint64)],
     "lks_client_get": [c_int32, c_void_p, POINTER(lks_client_view)],
     "lks_client_reason": [c_int32, c_void_p, c_void_p, c_size_t],
+    "lks_client_player_name": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t],
     "lks_client_simulation": [c_int32, c_void_p, POINTER(c_void_p)],
     "lks_client_stats": [c_int32, c_void_p, POINTER(lks_session_stats)],
     "lks_client_ask": [c_int32, c_void_p, c_uint32, c_uint32, c_uint32],
@@ -1068,6 +1085,7 @@ FUNCTIONS = {
     "lks_simulation_match": [c_int32, c_void_p, POINTER(c_void_p)],
     "lks_simulation_world": [c_int32, c_void_p, POINTER(c_void_p)],
     "lks_simulation_step": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_uint32)],
+    "lks_simulation_command": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t],
     "lks_simulation_hash": [c_int32, c_void_p, POINTER(c_uint64)],
     "lks_simulation_snapshot_bytes_max": [c_int32, c_void_p, c_uint32, POINTER(c_size_t)],
     "lks_simulation_save": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t, POINTER(c_size_t)],
@@ -1087,8 +1105,10 @@ FUNCTIONS = {
     "lks_log_open_bytes": [c_int32, c_void_p, c_size_t, POINTER(c_void_p)],
     "lks_log_close": [None, c_void_p],
     "lks_log_get_info": [c_int32, c_void_p, POINTER(lks_log_info)],
+    "lks_log_player_name": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t],
     "lks_log_config": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_size_t)],
     "lks_log_next": [c_int32, c_void_p, POINTER(c_uint64), c_void_p, c_size_t, POINTER(c_uint32), POINTER(c_uint64)],
+    "lks_log_command": [c_int32, c_void_p, c_size_t, POINTER(c_uint32), c_void_p, c_size_t, POINTER(c_size_t)],
     "lks_log_seek": [c_int32, c_void_p, c_void_p, c_uint64, POINTER(c_void_p)],
     "lks_log_verify": [c_int32, c_void_p, c_void_p, POINTER(lks_log_report)],
     "lks_log_bisect": [c_int32, c_void_p, c_void_p, c_void_p, POINTER(lks_bisect_report)],
@@ -1126,10 +1146,13 @@ FUNCTIONS = {
     "lks_server_update": [c_int32, c_void_p, c_int64],
     "lks_server_events": [c_int32, c_void_p, POINTER(lks_session_event), c_size_t, POINTER(c_size_t)],
     "lks_server_event_text": [c_int32, c_void_p, c_size_t, c_void_p, c_size_t],
+    "lks_server_event_bytes": [c_int32, c_void_p, c_size_t, c_void_p, c_size_t, POINTER(c_size_t)],
+    "lks_server_send_command": [c_int32, c_void_p, c_void_p, c_size_t],
     "lks_server_record": [c_int32, c_void_p, c_void_p],
     "lks_server_stop": [c_int32, c_void_p],
     "lks_server_pause": [c_int32, c_void_p, c_uint32],
     "lks_server_get": [c_int32, c_void_p, POINTER(lks_server_view)],
+    "lks_server_player_name": [c_int32, c_void_p, c_uint32, c_void_p, c_size_t],
     "lks_server_stats": [c_int32, c_void_p, c_uint32, POINTER(lks_session_stats)],
     "lks_hash": [c_int32, c_void_p, POINTER(c_uint64)],
     "lks_part_hashes": [c_int32, c_void_p, POINTER(lks_hashes)],

@@ -75,6 +75,9 @@ class Game:
     def step(self, inputs: Sequence[Input]) -> None:
         raise NotImplementedError
 
+    def command(self, slot: int, data: bytes) -> None:
+        """A command of the next tick, of a slot or of the server (253): right before step."""
+
     def snapshot_bytes_max(self, kind: int) -> int:
         raise NotImplementedError
 
@@ -175,6 +178,9 @@ class GameLibrary:
     def _step(self, match: int, inputs: Any, count: int) -> None:
         game, info = self._matches[match]
         game.step([Input(string_at(inputs[slot].bytes, info.input_bytes), inputs[slot].origin) for slot in range(count)])
+
+    def _command(self, match: int, slot: int, data: int, size: int) -> None:
+        self.game_of(match).command(slot, string_at(data, size))
 
     def _snapshot_bytes_max(self, match: int, kind: int) -> int:
         return self.game_of(match).snapshot_bytes_max(kind)

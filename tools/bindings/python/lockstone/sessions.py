@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_char, c_size_t, c_uint32, c_void_p, memmove
+from ctypes import byref, c_char, c_size_t, c_uint32, c_uint64, c_void_p, memmove
 from typing import Any, Callable, List, NamedTuple, Optional, Tuple
 
 from . import _declarations as c
@@ -26,6 +26,7 @@ class SessionEvent(NamedTuple):
     value: int
     reason: int
     text: str
+    data: bytes  # of LKS_SESSION_COMMAND
 
 
 def _settings(def_: Any, settings: dict) -> Any:
@@ -118,17 +119,31 @@ def _read_events(prefix: str, handle: c_void_p) -> List[SessionEvent]:
             room = count.value
     events = []
     for index, event in enumerate(raw[:count.value]):
-        text.value = b""
-        if event.kind != c.LKS_SESSION_TICK:
+        text.value, data = b"", b""
+        if event.kind == c.LKS_SESSION_COMMAND:
+            data = _command(prefix, handle, index, event.value)
+        elif event.kind != c.LKS_SESSION_TICK:
             text_of(handle, index, text, len(text))
         events.append(SessionEvent(event.kind, event.slot, event.tick, event.hash, event.value, event.reason,
-                                   text.value.decode(errors="replace")))
+                                   text.value.decode(errors="replace"), data))
     return events
+
+
+def _command(prefix: str, handle: c_void_p, index: int, size: int) -> bytes:
+    data, count = (c_char * size)(), c_size_t()
+    getattr(lib, f"lks_{prefix}_event_bytes")(handle, index, data, size, byref(count))
+    return data.raw
 
 
 def ticks_of(events: List[SessionEvent]) -> List[Tuple[int, int]]:
     """The ticks among the events, with the hashes after them."""
     return [(event.tick, event.hash) for event in events if event.kind == c.LKS_SESSION_TICK]
+
+
+def _name(prefix: str, handle: c_void_p, slot: int) -> str:
+    text = (c_char * 64)()
+    getattr(lib, f"lks_{prefix}_player_name")(handle, slot, text, len(text))
+    return text.value.decode()
 
 
 class Server:
@@ -148,12 +163,20 @@ class Server:
         lib.lks_server_update(self.handle, now)
         return _read_events("server", self.handle)
 
+    def send_command(self, data: bytes) -> None:
+        """A command of the server's own."""
+        lib.lks_server_send_command(self.handle, data, len(data))
+
     def record(self, recorder: Recorder) -> None:
         """From here on each tick is written to this log."""
         lib.lks_server_record(self.handle, recorder.handle)
 
     def stop(self) -> None:
         lib.lks_server_stop(self.handle)
+
+    def player_name(self, slot: int) -> str:
+        """The name that a slot's player gave; kept after it left."""
+        return _name("server", self.handle, slot)
 
     @property
     def view(self) -> Any:
@@ -192,6 +215,12 @@ class Client:
         lib.lks_client_update(self.handle, now)
         return _read_events("client", self.handle)
 
+    def send_command(self, data: bytes) -> int:
+        """Gives a command, 1 … 65536 bytes; it comes back to everybody at a tick. Returns its number."""
+        number = c_uint64()
+        lib.lks_client_send_command(self.handle, data, len(data), byref(number))
+        return number.value
+
     def set_input(self, data: bytes) -> None:
         lib.lks_client_set_input(self.handle, data, len(data))
 
@@ -216,6 +245,10 @@ class Client:
         text = (c_char * 512)()
         lib.lks_client_reason(self.handle, text, len(text))
         return text.value.decode(errors="replace")
+
+    def player_name(self, slot: int) -> str:
+        """The name that a slot's player gave, as the server told it; kept after it left."""
+        return _name("client", self.handle, slot)
 
     @property
     def simulation(self) -> Simulation:

@@ -236,7 +236,7 @@ void add_bench_hosting_command(CLI::App& bench, int& exit_code) {
       ->check(CLI::Range(1U, 500U))
       ->capture_default_str();
   command->add_option("--bots", options->bots, "Players of a match, which do not simulate")
-      ->check(CLI::Range(1U, 8U))
+      ->check(CLI::Range(1U, 64U))
       ->capture_default_str();
   command->add_option("--bodies", options->bodies, "Loose bodies of the arena; default: as serve");
   command->add_option("--seconds", options->seconds, "Measured, once all matches run")

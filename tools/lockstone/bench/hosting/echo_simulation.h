@@ -70,6 +70,7 @@ class TellingSimulation final : public Simulation {
   }
   [[nodiscard]] SimulationInfo info() const override { return real_->info(); }
   [[nodiscard]] std::uint64_t tick() const override { return real_->tick(); }
+  void command(const PlayerCommand& command) override { real_->command(command); }
   void step(std::span<const PlayerInput> inputs) override {
     real_->step(inputs);
     tell();

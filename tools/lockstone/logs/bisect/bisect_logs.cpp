@@ -32,7 +32,7 @@ struct Side {
       complain(fmt::format("{}: {}", path, found.what));
       return false;
     }
-    stages = step_traced(*log.game, *found.simulation, found.ticks->inputs());
+    stages = step_traced(*log.game, *found.simulation, *found.ticks);
     reproduced = found.simulation->hash() == found.ticks->hash();
     return true;
   }
@@ -41,7 +41,7 @@ struct Side {
   [[nodiscard]] bool step_to_keyframe() {
     while (found.ticks->next()) {
       if (found.ticks->at_keyframe()) return true;
-      found.simulation->step(found.ticks->inputs());
+      step_tick(*found.simulation, found.ticks->inputs(), found.ticks->commands());
     }
     return found.ticks->at_keyframe();
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <lockstone/replay/tick_reader.h>
 #include <lockstone/simulation.h>
 #include <lockstone/tool.h>
 
@@ -29,6 +30,14 @@ class SelfTracing {
 /// world.
 [[nodiscard]] StageTrace step_traced(const GameDef& game, Simulation& simulation,
                                      std::span<const PlayerInput> inputs);
+
+/// The same for a tick of a log, with its commands before the first stage.
+[[nodiscard]] inline StageTrace step_traced(const GameDef& game, Simulation& simulation,
+                                            const replay::TickReader& tick) {
+  for (const PlayerCommand& command : tick.commands())
+    simulation.command(command);
+  return step_traced(game, simulation, tick.inputs());
+}
 
 /// The first stage with another digest; empty when there is none, or one of the two is empty.
 [[nodiscard]] std::string first_difference(const StageTrace& here, const StageTrace& there);

@@ -16,11 +16,11 @@ std::nullopt_t refuse(const std::string& path, std::string_view why) {
   return std::nullopt;
 }
 
-std::uint16_t playing(std::span<const PlayerInput> inputs) {
-  unsigned mask = 0;
+net::SlotMask playing(std::span<const PlayerInput> inputs) {
+  net::SlotMask mask = 0;
   for (std::size_t slot = 0; slot < inputs.size(); ++slot)
-    mask |= inputs[slot].origin == InputOrigin::absent ? 0U : 1U << slot;
-  return static_cast<std::uint16_t>(mask);
+    if (inputs[slot].origin != InputOrigin::absent) mask |= net::slot_bit(slot);
+  return mask;
 }
 
 // Walks to the last whole tick; returns the number of ticks.
@@ -52,8 +52,11 @@ Status copy_item(replay::LogItem item, const replay::LogReader& reader,
   Status status = Status::ok;
   const std::uint64_t first = item == replay::LogItem::skipped ? 0 : reader.chunk().first_tick;
   if (item == replay::LogItem::hashes) {
-    for (std::size_t i = 0; i < reader.hashes().size() && status == Status::ok; ++i)
+    for (std::size_t i = 0; i < reader.hashes().size() && status == Status::ok; ++i) {
+      status = recorder.record_commands(reader.tick_commands(i));
+      if (status != Status::ok) return status;
       status = recorder.record_tick(first + i, reader.tick_inputs(i), reader.hashes()[i]);
+    }
   }
   if (item == replay::LogItem::keyframe) {
     status = recorder.keyframe(first, reader.keyframe_hash(), reader.snapshot());

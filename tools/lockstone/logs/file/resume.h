@@ -20,7 +20,7 @@ namespace lockstone::tool {
 struct ResumedMatch {
   Match match;
   replay::LogHeader header;
-  std::uint16_t playing_mask = 0;  ///< bit n: slot n had a player in the last tick
+  net::SlotMask playing_mask = 0;  ///< bit n: slot n had a player in the last tick
 };
 
 /// Nothing, with a complaint: no log, one that has its end, that is damaged in the middle, or whose

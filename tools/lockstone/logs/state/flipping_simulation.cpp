@@ -37,6 +37,7 @@ class FlippingSimulation final : public Simulation {
 
   [[nodiscard]] SimulationInfo info() const override { return inner_->info(); }
   [[nodiscard]] std::uint64_t tick() const override { return inner_->tick(); }
+  void command(const PlayerCommand& command) override { inner_->command(command); }
   void step(std::span<const PlayerInput> inputs) override {
     const bool now = inner_->tick() == tick_;
     inner_->step(inputs);

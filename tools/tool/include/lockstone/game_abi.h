@@ -58,7 +58,7 @@ typedef struct lockstone_game_info {
   uint64_t canary; /* 0: none */
   uint32_t abi;
   uint16_t tick_rate;
-  uint8_t player_count; /* 1 ... 16 */
+  uint8_t player_count; /* 1 ... 64 */
   uint8_t input_bytes;  /* 1 ... 64 */
 } lockstone_game_info;
 
@@ -144,6 +144,10 @@ typedef struct lockstone_game_table {
    * client that predicts calls them. */
   void (*keep_history)(void* match, uint32_t ticks);
   void (*forget_history)(void* match);
+
+  /* Simulation::command: a command of the next tick, right before its step. `slot` is a player's,
+   * or 253: the server's own. `size` is 1 ... 65536. Any bytes are legal. */
+  void (*command)(void* match, uint32_t slot, const uint8_t* bytes, size_t size);
 } lockstone_game_table;
 
 /* The one symbol of the library. */

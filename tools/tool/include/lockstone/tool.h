@@ -75,6 +75,11 @@ struct GameDef {
 
   /// A picture of the state as SVG, for `seek --svg`.
   std::function<std::string(const Simulation& simulation)> draw = {};
+
+  /// A line of chat as a player command, for `join --say`; and the other way round, for the lines
+  /// that `serve` and `join` print.
+  std::function<std::vector<std::byte>(std::string_view text)> chat_command = {};
+  std::function<std::optional<std::string>(ByteView command)> chat_text = {};
 };
 
 /// Runs the command that the arguments name, and returns the program's exit code: 0 ok, 1 states

@@ -56,6 +56,11 @@ namespace Lockstone
         /// <summary>Ticks stepped.</summary>
         public abstract ulong Tick { get; }
         public abstract void Step(Inputs inputs);
+        /// <summary>A command of the next tick, of a slot or of the server (<c>Native.LKS_SERVER_SLOT</c>): right before
+        /// Step.</summary>
+        public virtual void Command(uint slot, ReadOnlySpan<byte> bytes)
+        {
+        }
         public abstract int SnapshotBytesMax(Snapshot kind);
         /// <summary>Writes the whole state; returns its bytes.</summary>
         public abstract int Save(Snapshot kind, Span<byte> to);
@@ -108,6 +113,7 @@ namespace Lockstone
         static readonly lockstone_game_describe_function describeFunction = Describe;
         static readonly lockstone_game_keep_history_function keepHistoryFunction = KeepHistory;
         static readonly lockstone_game_forget_history_function forgetHistoryFunction = ForgetHistory;
+        static readonly lockstone_game_command_function commandFunction = Command;
 
         /// <summary>`create` makes the match at tick 0 from configuration bytes, which may come from a stranger; it
         /// throws a LockstoneException for those that it does not know. `parts` names the hashes of parts.</summary>
@@ -142,7 +148,8 @@ namespace Lockstone
                 part_hashes = Marshal.GetFunctionPointerForDelegate(partsFunction),
                 describe = Marshal.GetFunctionPointerForDelegate(describeFunction),
                 keep_history = Marshal.GetFunctionPointerForDelegate(keepHistoryFunction),
-                forget_history = Marshal.GetFunctionPointerForDelegate(forgetHistoryFunction)
+                forget_history = Marshal.GetFunctionPointerForDelegate(forgetHistoryFunction),
+                command = Marshal.GetFunctionPointerForDelegate(commandFunction)
             };
         }
 
@@ -282,6 +289,12 @@ namespace Lockstone
         static void ForgetHistory(void* match)
         {
             GameOf(match).ForgetHistory();
+        }
+
+        [MonoPInvokeCallback(typeof(lockstone_game_command_function))]
+        static void Command(void* match, uint slot, byte* bytes, UIntPtr size)
+        {
+            GameOf(match).Command(slot, new ReadOnlySpan<byte>(bytes, (int)size));
         }
 
         [MonoPInvokeCallback(typeof(lockstone_game_part_hashes_function))]

@@ -154,6 +154,7 @@ namespace Lockstone.Interop
         public uint paused;
         public uint waiting_mask;
         public uint reserved;
+        public ulong waiting;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -533,6 +534,10 @@ namespace Lockstone.Interop
         public ulong rejoin_seed;
         public long drop_us;
         public long rejoin_us;
+        public uint command_bytes_max;
+        public uint commands_per_second;
+        public uint command_bytes_per_second;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -547,6 +552,8 @@ namespace Lockstone.Interop
         public uint spectators;
         public uint paused;
         public uint reserved;
+        public ulong present;
+        public ulong waiting;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -579,6 +586,8 @@ namespace Lockstone.Interop
         public ulong rollbacks;
         public ulong ticks_stepped_again;
         public ulong states_loaded;
+        public ulong commands_taken;
+        public ulong commands_refused;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -872,6 +881,7 @@ namespace Lockstone.Interop
         public UIntPtr scene_count;
         public IntPtr keep_history;
         public IntPtr forget_history;
+        public IntPtr command;
     }
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -918,6 +928,8 @@ namespace Lockstone.Interop
     public unsafe delegate void lockstone_game_keep_history_function(void* match, uint ticks);
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void lockstone_game_forget_history_function(void* match);
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void lockstone_game_command_function(void* match, uint slot, byte* bytes, UIntPtr size);
 
     public static unsafe class Native
     {
@@ -1041,6 +1053,7 @@ namespace Lockstone.Interop
         public const uint LKS_DESYNC_RESYNC = 2;
         public const uint LKS_NO_SLOT = 255;
         public const uint LKS_SPECTATOR_SLOT = 254;
+        public const uint LKS_SERVER_SLOT = 253;
         public const uint LKS_SESSION_STARTED = 1;
         public const uint LKS_SESSION_TICK = 2;
         public const uint LKS_SESSION_FINISHED = 3;
@@ -1048,6 +1061,8 @@ namespace Lockstone.Interop
         public const uint LKS_SESSION_SILENT = 5;
         public const uint LKS_SESSION_JOINED = 6;
         public const uint LKS_SESSION_PLAYER_ACTIVE = 7;
+        public const uint LKS_SESSION_NAMED = 8;
+        public const uint LKS_SESSION_COMMAND = 9;
         public const uint LKS_SESSION_LEFT = 16;
         public const uint LKS_SESSION_REFUSED = 17;
         public const uint LKS_SESSION_ASKED = 18;
@@ -1056,6 +1071,7 @@ namespace Lockstone.Interop
         public const uint LKS_SESSION_INPUT_REPLACED = 34;
         public const uint LKS_SESSION_PREDICTED = 35;
         public const uint LKS_SESSION_ROLLED_BACK = 36;
+        public const uint LKS_SESSION_COMMAND_REFUSED = 37;
         public const uint LKS_ASK_PAUSE = 0;
         public const uint LKS_ASK_RESUME = 1;
         public const uint LKS_ASK_VOTE = 2;
@@ -1291,10 +1307,19 @@ namespace Lockstone.Interop
         public static extern int lks_client_event_text(IntPtr client, UIntPtr index, byte* @out, UIntPtr capacity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_client_event_bytes(IntPtr client, UIntPtr index, void* @out, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_client_send_command(IntPtr client, void* bytes, UIntPtr count, ulong* number);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_client_get(IntPtr client, lks_client_view* view);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_client_reason(IntPtr client, byte* @out, UIntPtr capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_client_player_name(IntPtr client, uint slot, byte* @out, UIntPtr capacity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_client_simulation(IntPtr client, IntPtr* @out);
@@ -1363,6 +1388,9 @@ namespace Lockstone.Interop
         public static extern int lks_simulation_step(IntPtr simulation, void* inputs, UIntPtr bytes, uint* origins);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_simulation_command(IntPtr simulation, uint slot, void* bytes, UIntPtr count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_simulation_hash(IntPtr simulation, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -1420,10 +1448,16 @@ namespace Lockstone.Interop
         public static extern int lks_log_get_info(IntPtr log, lks_log_info* info);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_log_player_name(IntPtr log, uint slot, byte* @out, UIntPtr capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_log_config(IntPtr log, void* @out, UIntPtr capacity, UIntPtr* count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_log_next(IntPtr log, ulong* tick, void* inputs, UIntPtr bytes, uint* origins, ulong* hash);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_log_command(IntPtr log, UIntPtr index, uint* slot, void* @out, UIntPtr capacity, UIntPtr* count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_log_seek(IntPtr log, IntPtr game, ulong tick, IntPtr* @out);
@@ -1537,6 +1571,12 @@ namespace Lockstone.Interop
         public static extern int lks_server_event_text(IntPtr server, UIntPtr index, byte* @out, UIntPtr capacity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_server_event_bytes(IntPtr server, UIntPtr index, void* @out, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_server_send_command(IntPtr server, void* bytes, UIntPtr count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_server_record(IntPtr server, IntPtr recorder);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -1547,6 +1587,9 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_server_get(IntPtr server, lks_server_view* view);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_server_player_name(IntPtr server, uint slot, byte* @out, UIntPtr capacity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_server_stats(IntPtr server, uint slot, lks_session_stats* stats);

@@ -262,6 +262,23 @@ namespace Lockstone
             }
         }
 
+        /// <summary>Gives a command, 1 … 65536 bytes; it comes back to everybody at a tick. Returns its number.</summary>
+        public ulong SendCommand(ReadOnlySpan<byte> bytes)
+        {
+            ulong number;
+            fixed (byte* p = &MemoryMarshal.GetReference(bytes))
+                Call.Check(Native.lks_client_send_command(Pointer, p, (UIntPtr)bytes.Length, &number));
+            return number;
+        }
+
+        /// <summary>The name that a slot's player gave; kept after it left.</summary>
+        public string PlayerName(int slot)
+        {
+            byte* text = stackalloc byte[64];
+            Call.Check(Native.lks_client_player_name(Pointer, (uint)slot, text, (UIntPtr)64));
+            return Call.Text(text);
+        }
+
         /// <summary>Why it was refused or failed, for people; else empty.</summary>
         public string Reason
         {

@@ -156,6 +156,7 @@ pub const LKS_DESYNC_KICK: u32 = 1;
 pub const LKS_DESYNC_RESYNC: u32 = 2;
 pub const LKS_NO_SLOT: u32 = 255;
 pub const LKS_SPECTATOR_SLOT: u32 = 254;
+pub const LKS_SERVER_SLOT: u32 = 253;
 pub const LKS_SESSION_STARTED: u32 = 1;
 pub const LKS_SESSION_TICK: u32 = 2;
 pub const LKS_SESSION_FINISHED: u32 = 3;
@@ -163,6 +164,8 @@ pub const LKS_SESSION_DESYNC: u32 = 4;
 pub const LKS_SESSION_SILENT: u32 = 5;
 pub const LKS_SESSION_JOINED: u32 = 6;
 pub const LKS_SESSION_PLAYER_ACTIVE: u32 = 7;
+pub const LKS_SESSION_NAMED: u32 = 8;
+pub const LKS_SESSION_COMMAND: u32 = 9;
 pub const LKS_SESSION_LEFT: u32 = 16;
 pub const LKS_SESSION_REFUSED: u32 = 17;
 pub const LKS_SESSION_ASKED: u32 = 18;
@@ -171,6 +174,7 @@ pub const LKS_SESSION_PAUSED: u32 = 33;
 pub const LKS_SESSION_INPUT_REPLACED: u32 = 34;
 pub const LKS_SESSION_PREDICTED: u32 = 35;
 pub const LKS_SESSION_ROLLED_BACK: u32 = 36;
+pub const LKS_SESSION_COMMAND_REFUSED: u32 = 37;
 pub const LKS_ASK_PAUSE: u32 = 0;
 pub const LKS_ASK_RESUME: u32 = 1;
 pub const LKS_ASK_VOTE: u32 = 2;
@@ -401,6 +405,7 @@ pub struct lks_client_view {
     pub paused: u32,
     pub waiting_mask: u32,
     pub reserved: u32,
+    pub waiting: u64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -686,6 +691,10 @@ pub struct lks_server_def {
     pub rejoin_seed: u64,
     pub drop_us: i64,
     pub rejoin_us: i64,
+    pub command_bytes_max: u32,
+    pub commands_per_second: u32,
+    pub command_bytes_per_second: u32,
+    pub reserved: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -699,6 +708,8 @@ pub struct lks_server_view {
     pub spectators: u32,
     pub paused: u32,
     pub reserved: u32,
+    pub present: u64,
+    pub waiting: u64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -729,6 +740,8 @@ pub struct lks_session_stats {
     pub rollbacks: u64,
     pub ticks_stepped_again: u64,
     pub states_loaded: u64,
+    pub commands_taken: u64,
+    pub commands_refused: u64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -993,6 +1006,7 @@ pub struct lockstone_game_table {
     pub scene_count: usize,
     pub keep_history: Option<unsafe extern "C" fn(*mut c_void, u32)>,
     pub forget_history: Option<unsafe extern "C" fn(*mut c_void)>,
+    pub command: Option<unsafe extern "C" fn(*mut c_void, u32, *const u8, usize)>,
 }
 
 extern "C" {
@@ -1060,8 +1074,11 @@ extern "C" {
     pub fn lks_client_update(client: *mut lks_client, now_us: i64) -> lks_status;
     pub fn lks_client_events(client: *const lks_client, out: *mut lks_session_event, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_client_event_text(client: *const lks_client, index: usize, out: *mut c_char, capacity: usize) -> lks_status;
+    pub fn lks_client_event_bytes(client: *const lks_client, index: usize, out: *mut c_void, capacity: usize, count: *mut usize) -> lks_status;
+    pub fn lks_client_send_command(client: *mut lks_client, bytes: *const c_void, count: usize, number: *mut u64) -> lks_status;
     pub fn lks_client_get(client: *const lks_client, view: *mut lks_client_view) -> lks_status;
     pub fn lks_client_reason(client: *const lks_client, out: *mut c_char, capacity: usize) -> lks_status;
+    pub fn lks_client_player_name(client: *const lks_client, slot: u32, out: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_client_simulation(client: *const lks_client, out: *mut *mut lks_simulation) -> lks_status;
     pub fn lks_client_stats(client: *const lks_client, stats: *mut lks_session_stats) -> lks_status;
     pub fn lks_client_ask(client: *mut lks_client, kind: u32, topic: u32, choice: u32) -> lks_status;
@@ -1084,6 +1101,7 @@ extern "C" {
     pub fn lks_simulation_match(simulation: *const lks_simulation, out: *mut *mut c_void) -> lks_status;
     pub fn lks_simulation_world(simulation: *const lks_simulation, out: *mut *mut lks_world) -> lks_status;
     pub fn lks_simulation_step(simulation: *mut lks_simulation, inputs: *const c_void, bytes: usize, origins: *const u32) -> lks_status;
+    pub fn lks_simulation_command(simulation: *mut lks_simulation, slot: u32, bytes: *const c_void, count: usize) -> lks_status;
     pub fn lks_simulation_hash(simulation: *const lks_simulation, out: *mut u64) -> lks_status;
     pub fn lks_simulation_snapshot_bytes_max(simulation: *const lks_simulation, kind: u32, out: *mut usize) -> lks_status;
     pub fn lks_simulation_save(simulation: *const lks_simulation, kind: u32, out: *mut c_void, capacity: usize, bytes: *mut usize) -> lks_status;
@@ -1103,8 +1121,10 @@ extern "C" {
     pub fn lks_log_open_bytes(bytes: *const c_void, count: usize, out: *mut *mut lks_log) -> lks_status;
     pub fn lks_log_close(log: *mut lks_log);
     pub fn lks_log_get_info(log: *mut lks_log, info: *mut lks_log_info) -> lks_status;
+    pub fn lks_log_player_name(log: *mut lks_log, slot: u32, out: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_log_config(log: *mut lks_log, out: *mut c_void, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_log_next(log: *mut lks_log, tick: *mut u64, inputs: *mut c_void, bytes: usize, origins: *mut u32, hash: *mut u64) -> lks_status;
+    pub fn lks_log_command(log: *mut lks_log, index: usize, slot: *mut u32, out: *mut c_void, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_log_seek(log: *mut lks_log, game: *const lks_game, tick: u64, out: *mut *mut lks_simulation) -> lks_status;
     pub fn lks_log_verify(log: *mut lks_log, game: *const lks_game, report: *mut lks_log_report) -> lks_status;
     pub fn lks_log_bisect(here: *mut lks_log, there: *mut lks_log, game: *const lks_game, report: *mut lks_bisect_report) -> lks_status;
@@ -1142,10 +1162,13 @@ extern "C" {
     pub fn lks_server_update(server: *mut lks_server, now_us: i64) -> lks_status;
     pub fn lks_server_events(server: *const lks_server, out: *mut lks_session_event, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_server_event_text(server: *const lks_server, index: usize, out: *mut c_char, capacity: usize) -> lks_status;
+    pub fn lks_server_event_bytes(server: *const lks_server, index: usize, out: *mut c_void, capacity: usize, count: *mut usize) -> lks_status;
+    pub fn lks_server_send_command(server: *mut lks_server, bytes: *const c_void, count: usize) -> lks_status;
     pub fn lks_server_record(server: *mut lks_server, recorder: *mut lks_recorder) -> lks_status;
     pub fn lks_server_stop(server: *mut lks_server) -> lks_status;
     pub fn lks_server_pause(server: *mut lks_server, paused: u32) -> lks_status;
     pub fn lks_server_get(server: *const lks_server, view: *mut lks_server_view) -> lks_status;
+    pub fn lks_server_player_name(server: *const lks_server, slot: u32, out: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_server_stats(server: *const lks_server, slot: u32, stats: *mut lks_session_stats) -> lks_status;
     pub fn lks_hash(world: *const lks_world, out: *mut u64) -> lks_status;
     pub fn lks_part_hashes(world: *const lks_world, out: *mut lks_hashes) -> lks_status;

@@ -20,7 +20,7 @@ pub struct Info {
     pub config_hash: u64,
     pub scene_hash: u64,
     pub tick_rate: u16,
-    /// 1 … 16
+    /// 1 … 64
     pub players: u8,
     /// Of one player, for one tick: 1 … 64.
     pub input_bytes: u8,
@@ -76,6 +76,8 @@ pub trait Game: Sized + 'static {
     fn tick(&self) -> u64;
     /// `inputs` has one entry for each slot.
     fn step(&mut self, inputs: &[Input<'_>]);
+    /// A command of the next tick, of a slot or of the server (`sys::LKS_SERVER_SLOT`): right before `step`.
+    fn command(&mut self, _slot: u32, _bytes: &[u8]) {}
     fn snapshot_bytes_max(&self, kind: Snapshot) -> usize;
     /// Writes the whole state; returns its bytes.
     fn save(&self, kind: Snapshot, out: &mut [u8]) -> usize;
@@ -196,6 +198,9 @@ unsafe extern "C" fn load<G: Game>(game: *mut c_void, kind: u32, bytes: *const u
 unsafe extern "C" fn hash<G: Game>(game: *const c_void) -> u64 {
     guard(|| game_of::<G>(game).hash())
 }
+unsafe extern "C" fn command<G: Game>(game: *mut c_void, slot: u32, bytes: *const u8, size: usize) {
+    guard(|| game_mut::<G>(game).command(slot, bytes_of(bytes, size)))
+}
 unsafe extern "C" fn keep_history<G: Game>(game: *mut c_void, ticks: u32) {
     guard(|| game_mut::<G>(game).keep_history(ticks))
 }
@@ -280,6 +285,7 @@ impl GameTable {
             scene_count: 0,
             keep_history: Some(keep_history::<G>),
             forget_history: Some(forget_history::<G>),
+            command: Some(command::<G>),
         };
         Box::into_raw(Box::new(table))
     }

@@ -198,6 +198,14 @@ impl<G: Game> Client<G> {
     pub fn set_input(&mut self, input: &[u8]) -> Result<()> {
         check(unsafe { sys::lks_client_set_input(self.handle, input.as_ptr().cast(), input.len()) })
     }
+    /// Gives a command, 1 … 65536 bytes; it comes back to everybody at a tick. Returns its number.
+    pub fn send_command(&mut self, bytes: &[u8]) -> Result<u64> {
+        let mut number = 0;
+        check(unsafe {
+            sys::lks_client_send_command(self.handle, bytes.as_ptr().cast(), bytes.len(), &mut number)
+        })?;
+        Ok(number)
+    }
     /// Asks for the input of each tick, in order and once each.
     pub fn on_sample(&mut self, sampler: impl FnMut(u64, &mut [u8]) + 'static) -> Result<()> {
         let mut sampler: Box<Sampler> = Box::new(Box::new(sampler));
@@ -233,6 +241,12 @@ impl<G: Game> Client<G> {
             sys::LKS_CLIENT_REFUSED => ClientState::Refused,
             _ => ClientState::Failed,
         }
+    }
+    /// The name that a slot's player gave; kept after it left.
+    pub fn player_name(&self, slot: u32) -> Result<String> {
+        let mut text = [0; 64];
+        check(unsafe { sys::lks_client_player_name(self.handle, slot, text.as_mut_ptr(), text.len()) })?;
+        Ok(text_in(&text))
     }
     /// Why it was refused or failed, for people.
     pub fn reason(&self) -> String {

@@ -1,6 +1,6 @@
-#include "replay/bytes/utf8.h"
+#include <lockstone/utf8.h>
 
-namespace lockstone::replay {
+namespace lockstone {
 namespace {
 
 std::size_t announced_bytes(unsigned first) {
@@ -51,4 +51,4 @@ void put_as_text(ByteWriter& writer, std::string_view text) {
   }
 }
 
-}  // namespace lockstone::replay
+}  // namespace lockstone

@@ -1,4 +1,4 @@
-// UTF-8: all texts of a log must be valid, so that they can be printed and put into JSON.
+// UTF-8, for texts from outside that are to be printed and put into JSON: names and notes.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 #include <lockstone/bytes.h>
 
-namespace lockstone::replay {
+namespace lockstone {
 
 /// Bytes of the character that `text` begins with, 1 … 4; 0 where it begins with none, or with a
 /// control character (below U+0020, or U+007F). Source: RFC 3629, section 4.
@@ -18,4 +18,4 @@ namespace lockstone::replay {
 /// Writes all bytes of `text`, '?' for each that is part of no such character.
 void put_as_text(ByteWriter& writer, std::string_view text);
 
-}  // namespace lockstone::replay
+}  // namespace lockstone

@@ -1,11 +1,11 @@
-#include "replay/bytes/utf8.h"
-
 #include <array>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
-namespace lockstone::replay {
+#include <lockstone/utf8.h>
+
+namespace lockstone {
 namespace {
 
 ByteView bytes_of(std::string_view text) {
@@ -53,4 +53,4 @@ TEST(Utf8, WritesAQuestionMarkForEachByteThatIsNone) {
 }
 
 }  // namespace
-}  // namespace lockstone::replay
+}  // namespace lockstone
