@@ -261,8 +261,8 @@ class Matches(Case):
         said = server.communicate(timeout=60)[0]
         self.assertEqual([player.returncode for player in players] + [server.returncode], [0, 0, 0])
         self.assertEqual(len({result["final_hash"] for result in results}), 1)
-        self.assertRegex(said, r"player 0: (\d+) of \1 hashes equal")
-        self.assertRegex(said, r"player 1: (\d+) of \1 hashes equal")
+        self.assertRegex(said, r"player 0 \"bot\": (\d+) of \1 hashes equal")
+        self.assertRegex(said, r"player 1 \"bot\": (\d+) of \1 hashes equal")
         return log
 
     def test_are_played_by_native_clients_with_equal_hashes(self):
