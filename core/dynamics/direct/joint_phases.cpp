@@ -13,7 +13,7 @@ namespace {
 
 using namespace proximal;
 using lanes::ProximalBlock;
-using Problem = ProximalBlock;
+using Problem = lanes::ProximalBlock;
 
 // γ of locks and limits over a row's response to itself, 2^-14: the factor's least eigenvalue.
 constexpr std::int64_t k_lock_give = std::int64_t{1} << (30 - BodyFactor::k_least_bits);

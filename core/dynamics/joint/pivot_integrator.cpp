@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t k_most_gap = std::int64_t{1} << (Position::frac_bits - 16);
 
 // A substep is taken in pieces of at most half a radian of the swing, in this many at most.
-constexpr std::int32_t k_most_pieces = 32;
+constexpr std::int32_t k_most_pivot_pieces = 32;
 
 // Bits of the mantissa of a pull, so that products below fit in 63 bits.
 constexpr int k_pull_bits = 29;
@@ -155,7 +155,7 @@ std::int32_t pieces_of(const Pull& pull, const Arm& arm, const Vec3<Unit>& momen
   LKS_ASSERT(middle.raw > 0);
   const std::int64_t product = (sum_of(pull.mantissa) >> 1) * (sum_of(arm.part) >> 2) / middle.raw;
   const int shift = pull.exponent - 27 - arm.exponent;  // of 4·ω²
-  for (std::int32_t pieces = 1; pieces <= k_most_pieces; pieces *= 2) {
+  for (std::int32_t pieces = 1; pieces <= k_most_pivot_pieces; pieces *= 2) {
     const std::int64_t rate = std::int64_t{step.substep_rate()} * pieces;
     const std::int64_t left = shift < 0 ? product >> std::min(-shift, 62) : product;
     const std::int64_t right = shift > 0 ? (rate * rate) >> std::min(shift, 62) : rate * rate;

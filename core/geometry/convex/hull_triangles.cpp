@@ -8,7 +8,7 @@
 namespace lockstone::geometry {
 namespace {
 
-using Points = std::span<const Vec3<Length>>;
+using PointList = std::span<const Vec3<Length>>;
 using PointIndex = std::uint16_t;
 using FacetIndex = int;
 
@@ -27,7 +27,7 @@ struct FirstSimplex {
 };
 
 /// The two ends of the axis along which the points extend most.
-void take_longest_axis(Points points, FirstSimplex& simplex) {
+void take_longest_axis(PointList points, FirstSimplex& simplex) {
   for (int axis = 0; axis < 3; ++axis) {
     std::size_t low = 0, high = 0;
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -48,7 +48,7 @@ UInt128 square_of(const RawVec& v) {
   return dot_wide(v, v).bits();
 }
 
-void take_farthest_from_line(Points points, FirstSimplex& simplex) {
+void take_farthest_from_line(PointList points, FirstSimplex& simplex) {
   const Vec3<Length> a = points[simplex.points[0]];
   const RawVec line = difference(points[simplex.points[1]], a);
   UInt128 most{};
@@ -63,7 +63,7 @@ void take_farthest_from_line(Points points, FirstSimplex& simplex) {
 }
 
 /// Leaves the first three clockwise seen from the fourth.
-void take_farthest_from_plane(Points points, FirstSimplex& simplex) {
+void take_farthest_from_plane(PointList points, FirstSimplex& simplex) {
   auto& [a, b, c, d] = simplex.points;
   const ExactPlane plane = plane_through(points[a], points[b], points[c]);
   Fine apex = 0;
@@ -78,7 +78,7 @@ void take_farthest_from_plane(Points points, FirstSimplex& simplex) {
   if (apex > 0) std::swap(b, c);
 }
 
-FirstSimplex find_simplex(Points points) {
+FirstSimplex find_simplex(PointList points) {
   FirstSimplex simplex;
   take_longest_axis(points, simplex);
   if (simplex.fault == HullFault::none) take_farthest_from_line(points, simplex);
@@ -107,7 +107,7 @@ struct Facet {
 
 class Builder {
  public:
-  Builder(Points points, const FirstSimplex& simplex, Length tolerance);
+  Builder(PointList points, const FirstSimplex& simplex, Length tolerance);
 
   void grow(int max_vertices) {
     // A closed surface of triangles has two more vertices than half its faces.
@@ -139,7 +139,7 @@ class Builder {
   void retire_visible(int apex);
   void assign(int index);
 
-  Points points_;
+  PointList points_;
   Fine tolerance_ = 0;
   int live_count_ = 0;
   std::vector<Facet> facets_;
@@ -150,7 +150,7 @@ class Builder {
   std::vector<FacetIndex> fresh_;
 };
 
-Builder::Builder(Points points, const FirstSimplex& simplex, Length tolerance)
+Builder::Builder(PointList points, const FirstSimplex& simplex, Length tolerance)
     : points_(points),
       tolerance_(fine(tolerance)),
       next_outside_(points.size(), k_no_point),
@@ -284,7 +284,7 @@ void Builder::assign(int index) {
 
 }  // namespace
 
-HullTriangles hull_triangles(Points points, const HullOptions& options) {
+HullTriangles hull_triangles(PointList points, const HullOptions& options) {
   HullTriangles result;
   const FirstSimplex simplex = find_simplex(points);
   result.fault = simplex.fault;

@@ -16,7 +16,7 @@
 namespace lockstone::geometry {
 namespace {
 
-constexpr std::int64_t k_whole_share = std::int64_t{1} << k_tapered_bits;
+constexpr std::int64_t k_whole_taper = std::int64_t{1} << k_tapered_bits;
 
 /// x / of, for x ≤ of.
 std::int64_t share_of(std::uint64_t x, std::uint64_t of) {
@@ -49,7 +49,7 @@ class TaperedForm {
     if (low_radius > high_radius) s_ = share_of(low_radius - high_radius, distance);
     if (low_radius < high_radius) s_ = -share_of(high_radius - low_radius, distance);
     square_ = times(s_, s_);
-    weight_ = times(times(lambda_, sum_of_powers(2)), k_whole_share + square_) +
+    weight_ = times(times(lambda_, sum_of_powers(2)), k_whole_taper + square_) +
               2 * times(rho_, power(a_, 3) + power(b_, 3));
   }
 
@@ -62,8 +62,8 @@ class TaperedForm {
     const std::int64_t aa = times(a_, a_), ab = times(a_, b_), bb = times(b_, b_);
     const std::int64_t linear = times(lambda_, aa + 2 * ab + 3 * bb);
     const std::int64_t cubic = times(rho_, times(a_ + b_, aa + bb));
-    const std::int64_t rest = k_whole_share - s_;
-    const std::int64_t sum = linear + times(2 * k_whole_share + s_, cubic);
+    const std::int64_t rest = k_whole_taper - s_;
+    const std::int64_t sum = linear + times(2 * k_whole_taper + s_, cubic);
     return quotient(times(times(rest, rest), sum), 4 * weight_);
   }
 
@@ -87,7 +87,7 @@ class TaperedForm {
 
   /// aⁿ + aⁿ⁻¹b + … + bⁿ.
   [[nodiscard]] std::int64_t sum_of_powers(int n) const {
-    std::int64_t sum = k_whole_share, of_a = k_whole_share;
+    std::int64_t sum = k_whole_taper, of_a = k_whole_taper;
     for (int i = 0; i < n; ++i) {
       of_a = times(of_a, a_);
       sum = times(sum, b_) + of_a;
@@ -99,7 +99,7 @@ class TaperedForm {
 
   /// 15 ∫ r⁴ dy.
   [[nodiscard]] std::int64_t fourth_moment() const {
-    const std::int64_t of_slope = 3 * k_whole_share + 6 * square_ - times(square_, square_);
+    const std::int64_t of_slope = 3 * k_whole_taper + 6 * square_ - times(square_, square_);
     return 8 * times(rho_, fifth_powers()) + times(times(lambda_, sum_of_powers(4)), of_slope);
   }
 

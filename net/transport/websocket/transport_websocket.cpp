@@ -10,11 +10,12 @@ namespace {
 
 constexpr std::int64_t k_times_every_us = 50'000;
 // A peer that was sent away need not take the rest.
-constexpr std::int64_t k_farewell_us = 2'000'000;
+constexpr std::int64_t k_closing_us = 2'000'000;
 
 }  // namespace
 
-WebSocketTransport::WebSocketTransport(std::unique_ptr<WebSocketNetwork> network) : network_(std::move(network)) {}
+WebSocketTransport::WebSocketTransport(std::unique_ptr<WebSocketNetwork> network)
+    : network_(std::move(network)) {}
 WebSocketTransport::~WebSocketTransport() = default;
 
 Result<std::unique_ptr<WebSocketTransport>> WebSocketTransport::listen(
@@ -130,7 +131,7 @@ void WebSocketNetwork::enforce_times(WebSocketPlace& place) {
     ++counters.handshakes_late;
     return cut(place);
   }
-  if (place.stage == PlaceStage::closing && stage_us >= k_farewell_us) return cut(place);
+  if (place.stage == PlaceStage::closing && stage_us >= k_closing_us) return cut(place);
   if (place.stage != PlaceStage::open) return;
   if (now_us - place.heard_us >= options.idle_us) {
     ++counters.idle;

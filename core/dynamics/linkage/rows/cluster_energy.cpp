@@ -22,13 +22,13 @@ std::int64_t product_of(const JointMotion& a, const JointMotion& b) {
 }
 
 // How a body turns; `is_heavier`: than it is.
-struct Turning {
+struct TurningState {
   const InverseInertia& inertia;
   const Mat3& rotation;
   bool is_heavier;
 };
 
-JointMotion motion_of(const BodyRecord& record, const Turning& turning,
+JointMotion motion_of(const BodyRecord& record, const TurningState& turning,
                       const lanes::BodyVelocity& row) {
   JointMotion motion;
   for (int i = 0; i < 3; ++i) {
@@ -43,12 +43,12 @@ JointMotion motion_of(const BodyRecord& record, const Turning& turning,
 }  // namespace
 
 JointMotion motion_of(const LinkedBody& body, const lanes::BodyVelocity& row) {
-  const Turning turning{body.inverse_inertia, body.pose.rotation, body.least_inertia != 0};
+  const TurningState turning{body.inverse_inertia, body.pose.rotation, body.least_inertia != 0};
   return motion_of(*body.record, turning, row);
 }
 
 JointMotion start_motion_of(const LinkedBody& body) {
-  const Turning turning{body.start_inertia, body.start_rotation, body.starts_heavier};
+  const TurningState turning{body.start_inertia, body.start_rotation, body.starts_heavier};
   return motion_of(*body.record, turning, body.start);
 }
 

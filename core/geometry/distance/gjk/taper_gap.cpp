@@ -14,18 +14,18 @@ namespace lockstone::geometry {
 namespace {
 
 /// A place on the axis: 0 at the first end, 1 at the second, 60 fraction bits.
-using Place = std::int64_t;
+using AxisPlace = std::int64_t;
 constexpr int k_place_bits = 60;
-constexpr Place k_second_end = Place{1} << k_place_bits;
+constexpr AxisPlace k_second_end = AxisPlace{1} << k_place_bits;
 
-RawVec part_of(const RawVec& v, Place place) {
+RawVec part_of(const RawVec& v, AxisPlace place) {
   const auto part = [place](Fine lane) { return saturated_product(lane, place, k_place_bits); };
   return {part(v.x), part(v.y), part(v.z)};
 }
 
 /// A ball of the taper, and the point of the other core that is nearest to its centre.
 struct Nearest {
-  Place place = 0;
+  AxisPlace place = 0;
   bool apart = false;
   Fine rise = 0;  ///< by how much the gap falls from end to end, with the normal of this place
   CoreGap gap{};  ///< of the ball's centre from the other core
@@ -76,18 +76,18 @@ class TaperSearch {
   }
 
   Nearest least_between(Bracket low, Bracket high) {
-    constexpr Place k_narrow = Place{1} << 12;
+    constexpr AxisPlace k_narrow = AxisPlace{1} << 12;
     constexpr int k_most_steps = 80;
     const Fine rounding =
         (magnitude_of(axis_.x) + magnitude_of(axis_.y) + magnitude_of(axis_.z)) >> Unit::frac_bits;
     int side = 0;  // of the last step
     Nearest middle;
     for (int step = 0; step < k_most_steps; ++step) {
-      const Place width = high.nearest.place - low.nearest.place, least = width / 1024;
+      const AxisPlace width = high.nearest.place - low.nearest.place, least = width / 1024;
       if (width <= k_narrow) return at_leap(low.nearest, high.nearest);
-      const Place by = step % 4 == 3 ? width / 2
-                                     : round_divide(multiply_wide(width, low.weight),
-                                                    raw::add(low.weight, high.weight));
+      const AxisPlace by = step % 4 == 3 ? width / 2
+                                         : round_divide(multiply_wide(width, low.weight),
+                                                        raw::add(low.weight, high.weight));
       middle = nearest_at(low.nearest.place + std::clamp(by, least, width - least));
       if (!middle.apart || magnitude_of(middle.rise) <= rounding) return middle;
       const int next = middle.rise > 0 ? 1 : -1;
@@ -115,7 +115,7 @@ class TaperSearch {
     return result;
   }
 
-  Nearest nearest_at(Place place) {
+  Nearest nearest_at(AxisPlace place) {
     Nearest result;
     result.place = place;
     const RawVec centre = first_ + part_of(axis_, place);
