@@ -12,6 +12,9 @@
 
 namespace lockstone::geometry {
 
+/// π/3, 61 fraction bits.
+constexpr std::uint64_t k_third_pi = 2414673152692374281U;
+
 constexpr std::uint64_t square(std::uint64_t x) {
   return x * x;
 }

@@ -19,8 +19,6 @@ UInt128 cone_product(const Sizes& size) {
   return multiply_wide(square(raw_of(size.x)), raw_of(size.y));
 }
 
-constexpr std::uint64_t k_third_pi = 2414673152692374281U;  // 61 fraction bits
-
 Fine cone_base_height(const Sizes& size) {
   return -fine(size.y) / 4;
 }

@@ -59,7 +59,6 @@ UInt128 tapered_product(const TaperedMass& mass) {
 
 /// π/3 · the share of R² M.
 std::uint64_t tapered_factor(const TaperedMass& mass) {
-  constexpr std::uint64_t k_third_pi = 2414673152692374281U;  // 61 fraction bits
   return round_shift(multiply_wide(static_cast<std::uint64_t>(mass.volume), k_third_pi), 61).low;
 }
 
