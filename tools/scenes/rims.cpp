@@ -102,8 +102,10 @@ void build_clubs(World& world, std::uint64_t seed) {
   Random random(mix(seed));
   for (int i = 0; i < 10; ++i) {
     const auto radius = [&] { return millimetres_long(random.between(80, 250)); };
-    const Length bottom = radius(), height = millimetres_long(random.between(150, 700));
-    BodyDef def = loose(Shape::tapered_capsule(height, bottom, radius()),
+    // Compilers differ in the order of arguments.
+    const Length bottom = radius(), height = millimetres_long(random.between(150, 700)),
+                 top_radius = radius();
+    BodyDef def = loose(Shape::tapered_capsule(height, bottom, top_radius),
                         {millimetres(1000 + random.between(-300, 300)), millimetres(1400 + 500 * i),
                          millimetres(3000 + random.between(-300, 300))});
     def.orientation = random_orientation(random);
