@@ -61,7 +61,7 @@ test("a tab whose state is flipped is found and named", { skip }, async () => {
     await reached(page, 60);
     const tick = await page.evaluate(() => (window.client.flipForTests(), window.client.ticks));
     await Promise.all([client.ended, match.server.ended, over(page)]);
-    assert.match(match.server.text, new RegExp(`desync: tick ${tick}, player 0, body \\d+ .*position\\.x`));
+    assert.match(match.server.text, new RegExp(`desync: tick ${tick}, player 0 "tab", body \\d+ .*position\\.x`));
     assert.match((await playedBy(page)).desync, /position\.x/);
     assert.equal(JSON.parse(client.text.slice(client.text.indexOf("{"))).ticks, 300);
   }));
