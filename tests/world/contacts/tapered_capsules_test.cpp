@@ -58,6 +58,15 @@ BodyDef lying_club() {
   return def;
 }
 
+// The line that touches the ground is along x: the body turns about it.
+BodyDef rolling_club() {
+  BodyDef def = lying_club();
+  def.material.friction = Coefficient::from_integer(1);
+  def.angular_velocity.x.raw = std::int64_t{1} << AngularVelocity::frac_bits;
+  def.velocity.z.raw = std::llround(std::ldexp(metres(def.position.y), Velocity::frac_bits));
+  return def;
+}
+
 TEST(TaperedCapsuleBodies, LieStillOnTheirSide) {
   World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});
   test::add_ground(world);
@@ -75,11 +84,7 @@ TEST(TaperedCapsuleBodies, LieStillOnTheirSide) {
 TEST(TaperedCapsuleBodies, RollAroundTheirApex) {
   World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});
   test::add_ground(world);
-  BodyDef def = lying_club();
-  def.material.friction = Coefficient::from_integer(1);
-  // The line that touches the ground is along x: the body turns about it.
-  def.angular_velocity.x.raw = std::int64_t{1} << AngularVelocity::frac_bits;
-  def.velocity.z.raw = std::llround(std::ldexp(metres(def.position.y), Velocity::frac_bits));
+  const BodyDef def = rolling_club();
   const BodyHandle body = test::add(world, def);
   const double apex = fine_metres(geometry::tapered_ends(k_club.size).low) + 0.4 / 0.2;
   const Point start = on_axis(world.body(body), apex);
@@ -141,10 +146,7 @@ World world_of_asset(const AssetPtr& asset, Position shift) {
 TEST(TaperedCapsuleBodies, LieAndRollOnTrianglesAsOnABox) {
   for (const bool mesh : {true, false}) {
     World world = mesh ? world_of_asset(flat_mesh(), {}) : world_of_asset(level_field(), 6_m);
-    BodyDef def = lying_club();
-    def.material.friction = Coefficient::from_integer(1);
-    def.angular_velocity.x.raw = std::int64_t{1} << AngularVelocity::frac_bits;
-    def.velocity.z.raw = std::llround(std::ldexp(metres(def.position.y), Velocity::frac_bits));
+    const BodyDef def = rolling_club();
     const BodyHandle body = test::add(world, def);
     const double apex = fine_metres(geometry::tapered_ends(k_club.size).low) + 0.4 / 0.2;
     const Point start = on_axis(world.body(body), apex);

@@ -21,7 +21,7 @@ lks_body_def default_body_def() {
   raw.orientation = raw_of(def.orientation);
   raw.surface = raw_of(def.material.surface());
   raw.density = def.material.density.raw;
-  raw.filter = {def.filter.category, def.filter.mask, def.filter.group};
+  raw.filter = raw_of(def.filter);
   raw.gravity_scale = def.gravity_scale.raw;
   raw.flags = LKS_BODY_ALLOW_SLEEP;
   raw.speed_limit = def.speed_limit.linear.raw;
@@ -49,7 +49,7 @@ BodyDef body_def_of(const lks_body_def* from) {
   def.angular_velocity = vec<AngularVelocity>(raw.angular_velocity);
   def.material = material_of(surface_of(raw.surface, "body.surface"), raw.density);
   def.surface_motion = surface_motion_of(raw.surface_motion);
-  def.filter = {raw.filter.category, raw.filter.mask, raw.filter.group};
+  def.filter = filter_of(raw.filter);
   def.gravity_scale = Number::from_raw(raw.gravity_scale);
   def.linear_damping = Rate::from_raw(raw.linear_damping);
   def.angular_damping = Rate::from_raw(raw.angular_damping);
@@ -84,7 +84,7 @@ lks_body_view view_of(const BodyView& body) {
   raw.angular_velocity = raw_of(body.angular_velocity);
   raw.orientation = raw_of(body.orientation);
   raw.surface = raw_of(body.surface);
-  raw.filter = {body.filter.category, body.filter.mask, body.filter.group};
+  raw.filter = raw_of(body.filter);
   raw.flags = flags_of(body);
   raw.locks = raw_of(body.locks);
   raw.mass = body.mass.mass.raw;
@@ -100,11 +100,6 @@ lks_body_view view_of(const BodyView& body) {
   raw.speed_limit = body.speed_limit.linear.raw;
   raw.angular_speed_limit = body.speed_limit.angular.raw;
   return raw;
-}
-
-lks_pose raw_pose_of(const World& world, BodyHandle body) {
-  const Transform pose = pose_of(world, body);
-  return {raw_of(pose.position), raw_of(pose.orientation)};
 }
 
 }  // namespace
@@ -147,7 +142,7 @@ lks_status lks_body_get(const lks_world* world, lks_body body, lks_body_view* ou
 lks_status lks_body_pose(const lks_world* world, lks_body body, lks_pose* out) {
   return call([&] {
     const World& source = read(world);
-    required(out, "out") = raw_pose_of(source, existing_body(source, body));
+    required(out, "out") = raw_of(pose_of(source, existing_body(source, body)));
   });
 }
 
@@ -168,7 +163,7 @@ lks_status lks_bodies(const lks_world* world, lks_body* bodies, lks_pose* poses,
       const BodyHandle handle = source.body_at(index);
       if (handle.is_null() || found++ >= capacity) continue;
       if (bodies != nullptr) bodies[found - 1] = id_of(handle);
-      if (poses != nullptr) poses[found - 1] = raw_pose_of(source, handle);
+      if (poses != nullptr) poses[found - 1] = raw_of(pose_of(source, handle));
       if (velocities != nullptr) velocities[found - 1] = raw_of(source.velocity(handle));
     }
     give_count(found, capacity, *count, "bodies");

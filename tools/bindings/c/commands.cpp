@@ -133,8 +133,7 @@ lks_status lks_set_speed_limit(lks_world* world, lks_body body, lks_velocity lin
 
 lks_status lks_set_filter(lks_world* world, lks_body body, const lks_filter* filter) {
   return call([&] {
-    const lks_filter& f = required(filter, "filter");
-    order(world, SetFilter{handle_of<BodyHandle>(body), {f.category, f.mask, f.group}});
+    order(world, SetFilter{handle_of<BodyHandle>(body), filter_of(required(filter, "filter"))});
   });
 }
 

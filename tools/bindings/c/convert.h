@@ -34,6 +34,17 @@ template <class D, int F>
   return {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
 }
 
+[[nodiscard]] inline lks_pose raw_of(const Transform& pose) {
+  return {raw_of(pose.position), raw_of(pose.orientation)};
+}
+
+[[nodiscard]] constexpr CollisionFilter filter_of(const lks_filter& filter) {
+  return {filter.category, filter.mask, filter.group};
+}
+[[nodiscard]] constexpr lks_filter raw_of(const CollisionFilter& filter) {
+  return {filter.category, filter.mask, filter.group};
+}
+
 /// BodyHandle and JointHandle from their 64 bits.
 template <class Handle>
 [[nodiscard]] constexpr Handle handle_of(std::uint64_t id) {

@@ -44,7 +44,8 @@ net::Key key_of(const void* bytes) {
 }
 
 net::EnetTransport& socket_of(const Carrier& carrier) {
-  if (carrier.socket == nullptr || carrier.carried != nullptr) throw invalid("transport", "is no UDP socket");
+  if (carrier.socket == nullptr || carrier.carried != nullptr)
+    throw invalid("transport", "is no UDP socket");
   return static_cast<net::EnetTransport&>(*carrier.socket);
 }
 

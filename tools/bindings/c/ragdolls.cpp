@@ -15,10 +15,6 @@ using namespace lockstone::c;
 
 static_assert(LKS_MAX_BONES == k_max_bones && LKS_NO_BONE == k_no_bone);
 
-lks_pose raw_of(const Transform& pose) {
-  return {c::raw_of(pose.position), c::raw_of(pose.orientation)};
-}
-
 Quat rotation_of(const lks_quat& raw, const char* field) {
   if ((raw.x | raw.y | raw.z | raw.w) == 0) throw invalid(field, "a rotation must not be all 0");
   return quat_of(raw);
@@ -33,8 +29,8 @@ lks_bone raw_of(const Bone& bone) {
   raw.parent = bone.parent;
   raw.joint = static_cast<std::uint32_t>(bone.joint);
   raw.shape = c::raw_of(bone.shape);
-  raw.pose = raw_of(bone.pose);
-  raw.joint_frame = raw_of(bone.joint_frame);
+  raw.pose = c::raw_of(bone.pose);
+  raw.joint_frame = c::raw_of(bone.joint_frame);
   raw.mass = bone.mass.raw;
   raw.friction = bone.friction.raw;
   raw.surface = c::raw_of(bone.material.surface());
@@ -76,15 +72,14 @@ class Skeleton {
     def_.bones = bones_;
     if (def == nullptr) return;
     const lks_ragdoll_def raw = take(def, defaults(), "def");
-    def_.filter = {raw.filter.category, raw.filter.mask, raw.filter.group};
+    def_.filter = filter_of(raw.filter);
     def_.user_data = raw.user_data;
   }
   Skeleton(const Skeleton&) = delete;
   Skeleton& operator=(const Skeleton&) = delete;
 
   static lks_ragdoll_def defaults() {
-    const CollisionFilter filter;
-    return {sizeof(lks_ragdoll_def), {filter.category, filter.mask, filter.group}, 0};
+    return {sizeof(lks_ragdoll_def), c::raw_of(CollisionFilter{}), 0};
   }
 
   [[nodiscard]] const RagdollDef& def() const { return def_; }
@@ -97,7 +92,7 @@ class Skeleton {
 
 lks_ragdoll_pose raw_of(const RagdollPose& pose) {
   lks_ragdoll_pose raw{};
-  raw.root = raw_of(pose.root);
+  raw.root = c::raw_of(pose.root);
   for (std::size_t i = 0; i < k_max_bones; ++i)
     raw.turns[i] = c::raw_of(pose.turns[i]);
   return raw;
@@ -249,7 +244,7 @@ lks_status lks_bone_poses(const lks_bone* bones, size_t bone_count, const lks_ra
     std::vector<Transform> poses(bone_count);
     bone_poses(skeleton.def(), stands, poses);
     std::transform(poses.begin(), poses.end(), array(out, bone_count, "out"),
-                   [](const Transform& place) { return raw_of(place); });
+                   [](const Transform& place) { return c::raw_of(place); });
   });
 }
 

@@ -51,9 +51,9 @@ std::unique_ptr<lks_recorder> begin(const lks_recorder_def* def, std::shared_ptr
 }  // namespace
 
 std::shared_ptr<LogWriter> lockstone::c::LogWriter::begin(const lks_recorder_def* from,
-                                            std::shared_ptr<Match> match,
-                                            const Simulation& simulation,
-                                            std::unique_ptr<replay::Sink> sink) {
+                                                          std::shared_ptr<Match> match,
+                                                          const Simulation& simulation,
+                                                          std::unique_ptr<replay::Sink> sink) {
   const lks_recorder_def def = take(from, raw_def(), "def");
   auto log = std::make_shared<LogWriter>();
   log->match = match;

@@ -10,7 +10,7 @@
 namespace lockstone::geometry {
 namespace {
 
-/// The part of a vector at `along` of `length`, 0 ≤ along ≤ length.
+/// The vector times along / length.
 RawVec part_of(const RawVec& v, Fine along, Fine length) {
   if (length == 0) return {};
   const auto part = [&](Fine lane) { return round_divide(multiply_wide(lane, along), length); };
@@ -27,8 +27,7 @@ class Taper {
         swell_(core.swell[0]),
         fall_(core.swell[0] - core.swell[1]) {
     LKS_ASSERT(is_taper(core) && magnitude_of(fall_) <= length_);
-    const Int128 square = multiply_wide(length_, length_) - multiply_wide(fall_, fall_);
-    rise_ = static_cast<Fine>(isqrt128(square.bits()));
+    rise_ = taper_rise(length_, fall_);
   }
 
   [[nodiscard]] TaperPointGap gap(const RawVec& point) const {
@@ -48,17 +47,12 @@ class Taper {
   [[nodiscard]] Fine foot_of(const RawVec& from) const {
     if (length_ == 0) return 0;
     const Fine up = round_divide(wide_dot(from, axis_), length_);
-    const RawVec aside = from - scaled_axis(up);
+    const RawVec aside = from - part_of(axis_, up, length_);
     const auto out = static_cast<Fine>(norm(aside.x, aside.y, aside.z));
     const Int128 foot = multiply_wide(up, rise_) - multiply_wide(out, fall_);
     if (foot.negative()) return 0;
     if (foot >= multiply_wide(length_, rise_)) return length_;
     return round_divide(foot, rise_);
-  }
-
-  [[nodiscard]] RawVec scaled_axis(Fine up) const {
-    const auto part = [&](Fine lane) { return round_divide(multiply_wide(lane, up), length_); };
-    return {part(axis_.x), part(axis_.y), part(axis_.z)};
   }
 
   [[nodiscard]] Vec3<Unit> side_normal() const {
@@ -78,6 +72,11 @@ class Taper {
 };
 
 }  // namespace
+
+Fine taper_rise(Fine length, Fine fall) {
+  const Int128 square = multiply_wide(length, length) - multiply_wide(fall, fall);
+  return static_cast<Fine>(isqrt128(square.bits()));
+}
 
 TaperPointGap taper_point_gap(const ConvexCore& core, const RawVec& point) {
   TaperPointGap result = Taper(core).gap(point);

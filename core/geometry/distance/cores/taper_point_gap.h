@@ -18,6 +18,10 @@ struct TaperPointGap {
 /// the axis.
 [[nodiscard]] TaperPointGap taper_point_gap(const ConvexCore& core, const RawVec& point);
 
+/// The length of a taper's side, between where it leaves the balls: of the axis `length`, and of
+/// radii that differ by `fall`, at most as much.
+[[nodiscard]] Fine taper_rise(Fine length, Fine fall);
+
 /// Whether a core is one of those.
 [[nodiscard]] constexpr bool is_taper(const ConvexCore& core) {
   return core.rims.count == 0 && core.vertex_count == 0 && core.generator_count <= 1;

@@ -19,9 +19,7 @@ Ring ring_of(const ConvexCore& taper, int sign) {
   const RawVec axis = vertex_of(taper, 1) - vertex_of(taper, 0);
   const auto length = static_cast<std::int64_t>(norm(axis.x, axis.y, axis.z));
   const Fine fall = taper.swell[0] - taper.swell[1];
-  const Int128 square = multiply_wide(length, length) - multiply_wide(fall, fall);
-  const auto rise = static_cast<Fine>(isqrt128(square.bits()));
-  const Vec3<Unit> slope = direction_of(rise, fall, 0);
+  const Vec3<Unit> slope = direction_of(taper_rise(length, fall), fall, 0);
   const Vec3<Unit> up = direction_of(axis.x, axis.y, axis.z);
   return {signed_axis(up, sign), slope.y, slope.x};
 }
