@@ -105,7 +105,7 @@ void add_issue_command(CLI::App& parent, Tool& tool) {
   command->add_option("--match", options->match, "Number of the match")->required();
   command->add_option("--player", options->player, "The backend's number for the player")
       ->capture_default_str();
-  command->add_option("--slot", options->slot, "0 to 15, or spectator")
+  command->add_option("--slot", options->slot, "0 to 63, or spectator")
       ->check(CLI::Range(std::size_t{0}, k_max_players - 1) | CLI::IsMember({"spectator"}))
       ->capture_default_str();
   command->add_option("--minutes", options->minutes, "Until it expires")

@@ -18,11 +18,14 @@ namespace {
 constexpr std::size_t k_piece_bytes = 64 * 1024;
 constexpr int k_service_ms = 100;  // between looks for Ctrl-C
 
-// WebAssembly is compiled in the page; everything comes from this server.
-constexpr char k_policy[] =
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src "
-    "'self'; img-src 'self' blob:; worker-src 'self'; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'";
+// WebAssembly is compiled in the page; all but a match comes from this server.
+std::string policy_with(std::string_view origin) {
+  std::string policy =
+      "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' "
+      "blob:; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
+      "connect-src 'self' ";
+  return policy.append(origin);
+}
 
 std::string random_token() {
   std::random_device random;
@@ -45,6 +48,7 @@ struct PageServer::Parts {
   std::string token = random_token();
   std::string host;  // as a browser must name it
   std::string address;
+  std::string policy;
   lws_context* context = nullptr;
 
   ~Parts() {
@@ -95,11 +99,11 @@ class Head {
   unsigned char* at_ = room_.data() + LWS_PRE;
 };
 
-bool send_head(lws* connection, const ServedFile& file) {
+bool send_head(lws* connection, const ServedFile& file, std::string_view policy) {
   Head head(connection);
   if (!head.begin(file)) return false;
   if (file.compressed && !head.add("content-encoding:", "gzip")) return false;
-  return head.add("content-security-policy:", k_policy) && head.add("cache-control:", "no-store") &&
+  return head.add("content-security-policy:", policy) && head.add("cache-control:", "no-store") &&
          head.add("x-content-type-options:", "nosniff") &&
          head.add("referrer-policy:", "no-referrer") &&
          head.add("cross-origin-opener-policy:", "same-origin") &&
@@ -123,7 +127,7 @@ int begin_answer(lws* connection, const PageServer::Parts& parts, Sending& sendi
   const ServedFile* file = parts.find(header_of(connection, WSI_TOKEN_GET_URI));
   if (file == nullptr) return refuse(connection);
   sending = {file, 0};
-  if (!send_head(connection, *file)) return -1;
+  if (!send_head(connection, *file, parts.policy)) return -1;
   lws_callback_on_writable(connection);
   return 0;
 }
@@ -180,9 +184,11 @@ PageServer::PageServer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) 
 
 PageServer::~PageServer() = default;
 
-std::unique_ptr<PageServer> PageServer::open(std::uint16_t port, ServedFiles files) {
+std::unique_ptr<PageServer> PageServer::open(std::uint16_t port, ServedFiles files,
+                                             std::string_view origin) {
   auto parts = std::make_unique<Parts>();
   parts->files = std::move(files);
+  parts->policy = policy_with(origin);
   parts->context = listen(port, *parts);
   lws_vhost* host =
       parts->context == nullptr ? nullptr : lws_get_vhost_by_name(parts->context, "default");

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace lockstone::tool {
 
@@ -23,8 +24,10 @@ using ServedFiles = std::map<std::string, ServedFile, std::less<>>;
 /// that is not among them (content security policy).
 class PageServer {
  public:
-  /// Port 0: the system chooses. Null, with a complaint, when the system refuses.
-  [[nodiscard]] static std::unique_ptr<PageServer> open(std::uint16_t port, ServedFiles files);
+  /// Port 0: the system chooses. The page may also connect to `origin`, like "ws://host:9000";
+  /// empty: to nobody else. Null, with a complaint, when the system refuses.
+  [[nodiscard]] static std::unique_ptr<PageServer> open(std::uint16_t port, ServedFiles files,
+                                                        std::string_view origin);
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;

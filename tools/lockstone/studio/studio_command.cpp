@@ -1,13 +1,17 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/studio/live_match.h"
 #include "tools/lockstone/studio/page_server.h"
 #include "tools/lockstone/studio/studio_files.h"
+#include "tools/lockstone/support/console.h"
 #include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
@@ -16,13 +20,42 @@ namespace {
 struct StudioOptions {
   std::vector<std::string> files;
   std::uint16_t port = 0;
+  std::string live;
+  std::string token;  // its file
+  std::string name = "studio";
+  bool plays = false;
 };
+
+/// Whether `--live` and its options can be used; fills `live` where they are given.
+bool take_live(const StudioOptions& options, std::optional<LiveMatch>& live, int& exit_code) {
+  if (options.live.empty()) return true;
+  const std::optional<std::string> origin = origin_of(options.live);
+  if (!origin) {
+    complain(fmt::format("studio: --live {}: no address like ws://127.0.0.1:9000/", options.live));
+    exit_code = k_usage;
+    return false;
+  }
+  live = {*origin, "", options.name, options.plays};
+  if (options.token.empty()) return true;
+  std::optional<std::string> token = read_file(options.token);
+  if (!token) {
+    complain(fmt::format("studio: --token {}: cannot be read", options.token));
+    exit_code = k_usage;
+    return false;
+  }
+  live->token = std::move(*token);
+  return true;
+}
 
 int studio(const Games& games, const StudioOptions& options) {
   int exit_code = k_ok;
-  std::optional<ServedFiles> files = studio_files(games, options.files, exit_code);
+  std::optional<LiveMatch> live;
+  if (!take_live(options, live, exit_code)) return exit_code;
+  std::optional<ServedFiles> files = studio_files(games, options.files, live, exit_code);
   if (!files) return exit_code;
-  const std::unique_ptr<PageServer> server = PageServer::open(options.port, std::move(*files));
+  const std::string origin = live ? live->origin : std::string();
+  const std::unique_ptr<PageServer> server =
+      PageServer::open(options.port, std::move(*files), origin);
   if (server == nullptr) return k_unavailable;
   fmt::print("{}\n", server->address());
   std::fflush(stdout);
@@ -45,6 +78,14 @@ void add_studio_command(CLI::App& app, Tool& tool) {
                    "Nothing, a .lks log, two logs of one match, or a .tar bundle of a desync")
       ->expected(0, 2);
   command->add_option("--port", options->port, "0: any that is free")->capture_default_str();
+  CLI::Option* live = command->add_option(
+      "--live", options->live, "Watch the match of a `serve --ws`, like ws://127.0.0.1:9000/");
+  command->add_flag("--play", options->plays, "Take a seat of that match")->needs(live);
+  command->add_option("--token", options->token, "File with a token of `token issue` for it")
+      ->needs(live);
+  command->add_option("--name", options->name, "Name that the match shows for this page")
+      ->capture_default_str()
+      ->needs(live);
   command->callback([options, &tool] { tool.exit_code = studio(tool.games, *options); });
 }
 

@@ -56,6 +56,7 @@ class Collector {
     session_["views"] = ordered_json::array();
     session_["logs"] = ordered_json::array();
     session_["desync"] = nullptr;
+    session_["live"] = nullptr;
   }
 
   [[nodiscard]] bool add_log(const std::string& path) {
@@ -103,6 +104,15 @@ class Collector {
     if (!add_source(log, name) || !add_source(log, name)) return false;
     describe_bundle(log, entry("report.txt"), entry("here.snapshot"), entry("there.snapshot"));
     return true;
+  }
+
+  void add_live(const LiveMatch& live) {
+    ordered_json& match = session_["live"];
+    match["url"] = live.origin + '/';
+    match["token"] = live.token.empty() ? ordered_json() : ordered_json(live.token);
+    match["name"] = live.name;
+    match["role"] = live.plays ? "player" : "spectator";
+    add_view("live");
   }
 
   void add_view(const char* name) { session_["views"].push_back(name); }
@@ -181,9 +191,10 @@ bool collect(Collector& collector, const std::vector<std::string>& paths) {
 }  // namespace
 
 std::optional<ServedFiles> studio_files(const Games& games, const std::vector<std::string>& paths,
-                                        int& exit_code) {
+                                        const std::optional<LiveMatch>& live, int& exit_code) {
   Collector collector(games, exit_code);
   if (!collect(collector, paths)) return std::nullopt;
+  if (live) collector.add_live(*live);
   return std::move(collector).finish();
 }
 

@@ -5,15 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "tools/lockstone/studio/live_match.h"
 #include "tools/lockstone/studio/page_server.h"
 #include "tools/tool/games.h"
 
 namespace lockstone::tool {
 
 /// The files for a session: no path opens the testbed, one .lks the log, two of them or one .tar
-/// the desync. Nothing, with a complaint and `exit_code`, where they cannot be shown.
+/// the desync; `live` the match. Nothing, with a complaint and `exit_code`, where they cannot be
+/// shown.
 [[nodiscard]] std::optional<ServedFiles> studio_files(const Games& games,
                                                       const std::vector<std::string>& paths,
+                                                      const std::optional<LiveMatch>& live,
                                                       int& exit_code);
 
 }  // namespace lockstone::tool

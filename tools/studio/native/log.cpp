@@ -271,10 +271,10 @@ lks_status lks_studio_log_step(const lks_studio_log* log, lks_world* world, uint
         static_cast<std::size_t>(play->simulation().tick() - from.header.match.start_tick);
     if (tick >= from.hashes.size()) throw failure(Status::not_found);
     play->set_inputs(from, tick);
-    const auto commands =
-        std::ranges::equal_range(from.commands, play->simulation().tick(), {}, &TickCommand::tick);
-    for (const TickCommand& command : commands)
-      play->simulation().command({command.slot, command.bytes});
+    const std::uint64_t now = play->simulation().tick();
+    auto command = std::ranges::lower_bound(from.commands, now, {}, &TickCommand::tick);
+    for (; command != from.commands.end() && command->tick == now; ++command)
+      play->simulation().command({command->slot, command->bytes});
     play->step();
     required(same, "same") = play->simulation().hash() == from.hashes[tick] ? 1 : 0;
   });

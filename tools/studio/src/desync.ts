@@ -5,6 +5,7 @@ import type { Hit } from "../../web/src/queries.js";
 import { Chart, type Scale } from "./charts.js";
 import { Facts, button, make, section } from "./dom.js";
 import type { Engine } from "./engine.js";
+import { Infection } from "./infection.js";
 import { LogFile } from "./log_file.js";
 import { LogStage } from "./log_stage.js";
 import type { Mode } from "./mode.js";
@@ -53,6 +54,7 @@ export class DesyncView implements Mode {
   private readonly table = make("tbody", { id: "differing" });
   private readonly counted = new Chart("Differing bodies", "", "chart-differing", 300);
   private readonly farthest = new Chart("Farthest apart", BY_SIZE, "chart-farthest", 300);
+  private readonly infection: Infection;
   private readonly selection = new Selection();
   private readonly status = make("p", { id: "compare-status" });
 
@@ -62,6 +64,7 @@ export class DesyncView implements Mode {
     const paint = differencePainter(() => this.rows, () => this.selection.row);
     this.dioramas = [lead, there].map((stage) => new Diorama(stage, paint, () => this.pins(stage)));
     picture.frame(lead);
+    this.infection = new Infection(engine, (row) => this.look(row));
     this.buildPanel();
     if (desync.found) this.measureSpread();
     this.seek(desync.found ? this.shownTick : lead.first);
@@ -134,6 +137,7 @@ export class DesyncView implements Mode {
     const { rows, differing } = this.engine.compare(this.lead.world, this.there.world);
     this.rows = rows.slice();
     this.note(tick, this.listed(), differing);
+    if (tick >= this.shownTick) this.infection.note(tick, [this.lead.world, this.there.world], this.listed().map(({ row }) => row).sort((a, b) => a - b));
     this.showTable(this.listed());
     const { desync } = this;
     const unknown = desync.found && tick > desync.tick && tick < this.shownTick;
@@ -212,7 +216,9 @@ export class DesyncView implements Mode {
         button("First difference", "The first tick that differs (N)", () => this.seekTo(this.shownTick), "go-first"))),
       section("Bodies that differ", this.status, make("table", {}, head, this.table),
         make("p", {}, "yellow: nanometres, red: metres; grey: equal")),
-      section("How it spreads", make("div", { class: "charts" }, this.counted.element, this.farthest.element)),
+      section("How it spreads", make("div", { class: "charts" }, this.counted.element, this.farthest.element),
+        make("div", { class: "infection" }, this.infection.element),
+        make("p", {}, "From which body each had it, by contact or joint; colours are islands.")),
       this.selection.element);
   }
 }

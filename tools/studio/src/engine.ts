@@ -1,6 +1,6 @@
 // The studio's WebAssembly: the npm package's classes over it, and its own functions.
 import type { Exports, Heap } from "../../web/src/heap.js";
-import { type Lockstone, loadFrom } from "../../web/src/load.js";
+import { type Imported, type Lockstone, loadFrom } from "../../web/src/load.js";
 import { World } from "../../web/src/world.js";
 
 /** Functions of tools/studio/native/lockstone_studio.h. */
@@ -53,9 +53,11 @@ export class Engine {
     this.f = this.heap.f as Exports & StudioFunctions;
   }
 
-  static async load(wasm: string | URL): Promise<Engine> {
+  /** `crypto`: for matches that run; without it the module can do all but connect. */
+  static async load(wasm: string | URL, crypto?: Imported): Promise<Engine> {
     const never = () => new URL(wasm);
-    return new Engine(await loadFrom({ simd: true, wasm }, never, never));
+    const more: Record<string, Imported> = crypto ? { lockstone_crypto: crypto } : {};
+    return new Engine(await loadFrom({ simd: true, wasm }, never, never, more));
   }
 
   sceneNames(): string[] {

@@ -1,8 +1,11 @@
 // The page: loads the module, opens a view, and draws it.
 import { Engine } from "./engine.js";
 import { byId, make, saveFile } from "./dom.js";
+import { Clip } from "./clip.js";
+import { cryptoImports } from "../../web/src/crypto.js";
 import { DesyncView } from "./desync.js";
 import { Hand } from "./hand.js";
+import { LiveView } from "./live.js";
 import { LogView } from "./log.js";
 import { seenOf } from "./link.js";
 import type { Mode } from "./mode.js";
@@ -15,9 +18,9 @@ const KEYS: [string, string][] = [
   ["space", "play or pause"], ["← →", "one tick back or on"], ["shift ← →", "60 ticks"], ["R", "back by 600 ticks"], ["Home", "to the beginning"],
   ["1 … 6", "testbed: contacts, joints, bounds, centres of mass, sleeping, triggers"], ["C", "testbed: colour by body, island, activity"],
   ["F B U X", "testbed: throw, drop, push up, remove"], ["N", "log, desync: to the first difference"],
-  ["P", "save a picture"], ["L", "copy a link"], ["T", "light or dark"],
+  ["P", "save a picture"], ["V", "begin a film, end and save it"], ["L", "copy a link"], ["T", "light or dark"],
 ];
-const VIEWS = { testbed: "Testbed", log: "Log", desync: "Desync" } as const;
+const VIEWS = { testbed: "Testbed", log: "Log", desync: "Desync", live: "Live" } as const;
 type ViewName = keyof typeof VIEWS;
 
 // Events after which the picture may be another one.
@@ -31,6 +34,7 @@ let drawnAt = 0;
 const picture = new Picture(byId<HTMLCanvasElement>("picture"));
 const transport = new Transport(() => mode);
 new Hand(picture, () => mode);
+const clip = new Clip(picture.canvas, byId("clip"), () => mode?.lead.tick ?? 0);
 
 function tell(text: string): void {
   byId("message").hidden = text === "";
@@ -65,7 +69,7 @@ function press(event: KeyboardEvent): boolean {
   const deeds: Record<string, () => void> = {
     " ": () => transport.play(!transport.playing), ArrowRight: () => (shiftKey ? transport.move(60) : transport.stepOnce()),
     ArrowLeft: () => transport.move(shiftKey ? -60 : -1), Home: () => transport.seek(0), r: () => transport.move(-600),
-    p: savePicture, l: () => void shareLink(), t: toggleTheme, "?": () => byId<HTMLDialogElement>("keys").showModal(),
+    p: savePicture, v: () => clip.toggle(), l: () => void shareLink(), t: toggleTheme, "?": () => byId<HTMLDialogElement>("keys").showModal(),
   };
   const deed = deeds[key.length === 1 ? key.toLowerCase() : key];
   if (deed) deed();
@@ -82,6 +86,8 @@ async function open(engine: Engine, session: Session, view: ViewName): Promise<v
     transport.play(seen.tick === 0);
   } else if (view === "log") {
     mode = new LogView(engine, picture, await bytesOf("log/0"), (tick) => transport.seek(tick));
+  } else if (view === "live") {
+    mode = await LiveView.open(engine, picture, session.live!);
   } else {
     mode = await DesyncView.open(engine, picture, session, (tick) => transport.seek(tick));
   }
@@ -91,6 +97,7 @@ async function open(engine: Engine, session: Session, view: ViewName): Promise<v
   for (const tab of byId("views").children) tab.toggleAttribute("aria-current", false);
   byId(`view-${view}`).setAttribute("aria-current", "page");
   byId("share").hidden = !mode.link;
+  byId("transport").hidden = mode.fraction !== undefined;
 }
 
 async function openSafely(engine: Engine, session: Session, view: ViewName): Promise<void> {
@@ -104,14 +111,26 @@ async function openSafely(engine: Engine, session: Session, view: ViewName): Pro
   }
 }
 
+function takeFiles(): void {
+  const scene = byId("scene");
+  scene.ondragover = (event) => mode?.openFile && event.preventDefault();
+  scene.ondrop = (event) => {
+    const file = event.dataTransfer?.files[0];
+    if (!file || !mode?.openFile) return;
+    event.preventDefault();
+    void mode.openFile(file);
+  };
+}
+
 function frame(now: number): void {
   requestAnimationFrame(frame);
   transport.advance(now);
   if (!mode) return;
-  if (!transport.playing && now > awakeUntil && now < drawnAt + IDLE_MS) return;
+  const { fraction } = mode;
+  if (fraction === undefined && !transport.playing && !clip.runs && now > awakeUntil && now < drawnAt + IDLE_MS) return;
   drawnAt = now;
   const pulled = mode instanceof Testbed ? mode.pulled : null;
-  picture.draw(mode.dioramas, transport.fraction, mode.shown, pulled);
+  picture.draw(mode.dioramas, fraction ?? transport.fraction, mode.shown, pulled);
   mode.refresh();
   transport.refresh();
   byId("tick-text").textContent = `tick ${mode.lead.tick}`;
@@ -127,9 +146,10 @@ async function begin(): Promise<void> {
   byId("help").onclick = () => byId<HTMLDialogElement>("keys").showModal();
   for (const name of STIRRING) addEventListener(name, () => (awakeUntil = performance.now() + AWAKE_MS), { capture: true, passive: true });
   document.addEventListener("keydown", (event) => press(event) && event.preventDefault());
+  takeFiles();
   tell("Loading …");
   const session = await sessionOf();
-  const engine = await Engine.load(new URL("lockstone-studio.wasm", document.baseURI));
+  const engine = await Engine.load(new URL("lockstone-studio.wasm", document.baseURI), cryptoImports);
   const views = (Object.keys(VIEWS) as ViewName[]).filter((view) => view === "testbed" || session.views.includes(view));
   for (const view of views) {
     const tab = make("button", { type: "button", id: `view-${view}`, onclick: () => void openSafely(engine, session, view) }, VIEWS[view]);

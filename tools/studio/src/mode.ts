@@ -1,4 +1,4 @@
-// A view of the studio: testbed, log or desync.
+// A view of the studio: testbed, log, desync or live.
 import type * as three from "three";
 import type { Hit } from "../../web/src/queries.js";
 import type { Diorama } from "./picture.js";
@@ -15,6 +15,8 @@ export interface Mode {
   readonly labels: readonly string[];
   /** Names of overlays that are shown. */
   readonly shown: ReadonlySet<string>;
+  /** Of the way to the last tick, where the view moves on by itself. */
+  readonly fraction?: number;
   step(): void;
   seek(tick: number): void;
   /** Once a frame, after the picture. */
@@ -28,6 +30,8 @@ export interface Mode {
   release?(): void;
   /** A key that the view knows. */
   key?(key: string): boolean;
+  /** A file was dropped on the picture. */
+  openFile?(file: File): Promise<void>;
   /** The fragment of the address that shows the same. */
   link?(): string;
   destroy(): void;

@@ -18,11 +18,23 @@ export interface Desync {
   has_states: boolean;
 }
 
+/** A match that runs. */
+export interface Live {
+  /** "ws://127.0.0.1:9000/" */
+  url: string;
+  /** null: the match is insecure. */
+  token: string | null;
+  name: string;
+  /** The seat to begin with. */
+  role: "spectator" | "player";
+}
+
 export interface Session {
   views: string[];
   /** Names of the logs: one, or two. */
   logs: string[];
   desync: Desync | null;
+  live: Live | null;
 }
 
 async function fetched(path: string): Promise<Response> {

@@ -10,6 +10,7 @@ import type { Engine } from "./engine.js";
 import { type Seen, linkOf } from "./link.js";
 import type { Mode } from "./mode.js";
 import { OVERLAYS } from "./overlays.js";
+import { OwnScene } from "./own_scene.js";
 import { COLOURINGS, type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
 import { Selection } from "./selection.js";
@@ -43,6 +44,8 @@ export class Testbed implements Mode {
   private readonly counts = new Facts("count", COUNTS);
   private readonly told = make("p", { id: "told" });
   private colour: Colouring;
+  /** Why the last file was refused. */
+  private refused = "";
   private shape: keyof typeof SHAPES = "box";
   private held: Held | null = null;
 
@@ -72,8 +75,9 @@ export class Testbed implements Mode {
     const figures = lead.figures();
     for (const name of COUNTS) this.counts.set(name, String(figures[name]));
     this.selection.refresh(lead.world, this.picture.target);
-    this.told.textContent = lead.refusal;
-    this.told.hidden = lead.refusal === "";
+    const told = this.refused || lead.refusal;
+    this.told.textContent = told;
+    this.told.hidden = told === "";
   }
 
   choose(hit: Hit | null): void {
@@ -122,8 +126,20 @@ export class Testbed implements Mode {
     return key in deeds;
   }
 
+  /** A scene as a file of JSON. */
+  async openFile(file: File): Promise<void> {
+    try {
+      const own = new OwnScene(await file.text(), file.name);
+      this.change(own.name, 1n, own);
+    } catch (error) {
+      this.refused = error instanceof Error ? error.message : String(error);
+    }
+  }
+
+  /** Empty of a scene of one's own: the link has no room for it. */
   link(): string {
     const { lead } = this;
+    if (lead.own) return "";
     const before = new Map([...lead.journal].filter(([tick]) => tick < lead.tick));
     return linkOf({
       scene: lead.name, seed: lead.seed, tick: lead.tick, camera: this.picture.pose, overlays: [...this.shown],
@@ -136,9 +152,9 @@ export class Testbed implements Mode {
     for (const diorama of this.dioramas) diorama.bodies.dispose();
   }
 
-  private open(name: string, seed: bigint): TestbedStage {
+  private open(name: string, seed: bigint, own?: OwnScene): TestbedStage {
+    const stage = new TestbedStage(this.engine, name, seed, own);
     for (const diorama of this.dioramas) diorama.bodies.dispose();
-    const stage = new TestbedStage(this.engine, name, seed);
     const paint = painterOf(() => this.colour, () => this.shown.has("sleeping"), () => this.selection.row);
     this.dioramas = [new Diorama(stage, paint)];
     this.held = null;
@@ -147,9 +163,10 @@ export class Testbed implements Mode {
     return stage;
   }
 
-  private change(name: string, seed: bigint): void {
+  private change(name: string, seed: bigint, own?: OwnScene): void {
     const old = this.lead;
-    this.lead = this.open(name, seed);
+    this.lead = this.open(name, seed, own);
+    this.refused = "";
     old.destroy();
     this.tellScene();
     this.measure();
@@ -207,25 +224,37 @@ export class Testbed implements Mode {
 
   private setColour(colour: Colouring): void {
     this.colour = colour;
-    const list = document.getElementById("colour") as HTMLSelectElement | null;
+    const list = this.part<HTMLSelectElement>("colour");
     if (list) list.value = colour;
   }
 
+  /** A part of the panel, whose parts the page takes over. */
+  private part<Kind extends HTMLElement>(id: string): Kind | null {
+    return this.panel.querySelector<Kind>(`#${id}`) ?? (document.getElementById(id) as Kind | null);
+  }
+
   private tellScene(): void {
-    const text = this.panel.querySelector("#scene-text");
+    const text = this.part("scene-text"), list = this.part<HTMLSelectElement>("scene-name");
     const index = this.engine.sceneNames().indexOf(this.lead.name);
-    if (text) text.textContent = this.engine.sceneText(index);
+    if (list) list.value = this.lead.own ? "" : this.lead.name; // empty: any choice is a change
+    if (text) text.textContent = this.lead.own ? `${this.lead.name}: a scene of your own` : this.engine.sceneText(index);
+  }
+
+  private fileOf(): HTMLElement {
+    const input = make("input", { type: "file", accept: ".json,application/json", id: "scene-file" });
+    input.onchange = () => input.files?.[0] && void this.openFile(input.files[0]);
+    return make("label", { class: "field" }, make("span", {}, "or a file"), input);
   }
 
   private buildPanel(): void {
     const names = this.engine.sceneNames();
     const seed = make("input", { type: "number", id: "seed", min: "1", value: String(this.lead.seed) });
-    seed.onchange = () => this.change(this.lead.name, BigInt(Math.max(1, Math.trunc(Number(seed.value)) || 1)));
+    seed.onchange = () => this.change(this.lead.name, BigInt(Math.max(1, Math.trunc(Number(seed.value)) || 1)), this.lead.own);
     const switches = SWITCHES.map((name) => toggle(NAMES[name] ?? name, `show-${name}`, this.shown.has(name),
       (on) => void (on ? this.shown.add(name) : this.shown.delete(name))));
     this.panel.append(
       section("Scene", select("scene-name", names, this.lead.name, (name) => this.change(name, this.lead.seed), "scene"),
-        make("label", { class: "field" }, make("span", {}, "seed"), seed), make("p", { id: "scene-text" })),
+        make("label", { class: "field" }, make("span", {}, "seed"), seed), make("p", { id: "scene-text" }), this.fileOf()),
       section("Hand", make("p", {}, "Drag a body to pull it; let go to throw it."),
         select("shape", Object.keys(SHAPES), this.shape, (name) => (this.shape = name as keyof typeof SHAPES), "shape"),
         make("div", { class: "row" }, button("Throw", "Throw one from the camera (F)", () => this.throwOne(), "throw"),

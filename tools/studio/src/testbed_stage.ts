@@ -1,8 +1,9 @@
-// A built-in scene that a person plays with. All that the person does is kept by tick, so that every tick
+// A scene that a person plays with. All that the person does is kept by tick, so that every tick
 // can be computed again, here or behind a link.
 import { type Action, putAction } from "./action.js";
 import type { Engine } from "./engine.js";
 import { History, States } from "./history.js";
+import type { OwnScene } from "./own_scene.js";
 import { Stage } from "./stage.js";
 
 const KEEP_EVERY = 15; // ticks
@@ -20,8 +21,9 @@ export class TestbedStage extends Stage {
   private readonly states: States;
   private readonly history = new History(KEEP_EVERY);
 
-  constructor(engine: Engine, readonly name: string, readonly seed: bigint) {
-    super(engine, engine.scene(name, seed));
+  /** A built-in scene by its name, or one of a person's own. */
+  constructor(engine: Engine, readonly name: string, readonly seed: bigint, readonly own?: OwnScene) {
+    super(engine, own ? own.makeWorld(engine) : engine.scene(name, seed));
     this.states = new States(this.world);
     this.keep();
   }

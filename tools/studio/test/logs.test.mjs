@@ -74,11 +74,29 @@ async function checkDesync(page) {
   await press("n");
   await press("ArrowRight");
   assert.match(await page.textContent("#compare-status"), /Tick 302: \d+ bod(y|ies) differ/);
+  // One body began, and each other one had it from a body that differed before.
+  const titles = await page.locator("#infection title").allTextContents();
+  assert.deepEqual(titles.filter((text) => text.includes("the first")), [`body ${body}, tick ${FLIPPED + 1}, the first`]);
   await slide(FLIPPED + 2);
   const apart = (await page.locator("#labels span").allTextContents()).map((text) => text.split(" ").at(-1));
   assert.notEqual(apart[0], apart[1]);
   return apart;
 }
+
+test("a difference spreads in a ragdoll, from body to body", { skip }, () => {
+  const ragdoll = (name, ...options) => record(name, "--scene", "ragdoll", "--ticks", "240", ...options).path;
+  return withStudio([ragdoll("ragdoll.lks"), ragdoll("flipped-ragdoll.lks", "--flip-bit-at", "100")], (address) => withPage(address, async (page) => {
+    await page.waitForSelector("#infection title", { state: "attached" });
+    const titles = await page.locator("#infection title").allTextContents();
+    const infected = titles.map((text) => /^body (\d+), tick (\d+), (?:the first|from body ([\d, ]+))$/.exec(text).slice(1))
+      .map(([body, tick, from = ""]) => ({ body, tick: Number(tick), from: from.split(", ").filter(Boolean) }));
+    assert.ok(infected.length > 5, `${titles}`);
+    assert.deepEqual(infected[0].from, []);
+    const since = new Map(infected.map(({ body, tick }) => [body, tick]));
+    for (const { tick, from } of infected) for (const source of from) assert.ok(since.get(source) <= tick);
+    assert.ok(infected.filter(({ from }) => from.length > 0).length > infected.length / 2, `${titles}`);
+  }));
+});
 
 test("two logs of one match part where a bit was flipped, and a bundle shows the same", { skip }, () =>
   withStudio([good.path, flipped.path], async (address) => {

@@ -1,7 +1,9 @@
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { after, test } from "node:test";
 
-import { cleanUp, golden, person, skip, withPage, withStudio } from "./support.mjs";
+import { cleanUp, golden, person, scratch, skip, withPage, withStudio } from "./support.mjs";
 
 after(cleanUp);
 
@@ -90,6 +92,40 @@ test("overlays are drawn, and bodies come and go", { skip }, () => withStudio([]
     await frames();
     assert.equal(await page.getAttribute("html", "data-theme"), "dark");
   })));
+
+test("a scene of one's own is played, a wrong one is named, and a clip is saved", { skip }, () => withStudio([], (address) => withPage(address, async (page) => {
+  const { press, state } = person(page);
+  const drop = (scene) => page.setInputFiles("#scene-file", { name: "own.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(scene)) });
+  await page.waitForSelector("#scene-file");
+  const own = {
+    name: "two crates", gravity: [0, -9.81, 0],
+    bodies: [
+      { name: "ground", shape: { halfSpace: [] }, motion: "static" },
+      { name: "crate", shape: { box: [0.5, 0.5, 0.5] }, position: [0, 2, 0], surface: { friction: "0.6" } },
+      { shape: { hull: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }, position: [2, 3, 0], locks: ["turnY"] },
+    ],
+    joints: [{ kind: "hinge", a: "ground", b: "crate", frameA: { position: [0, 2, 0] }, angular: [{ mode: "limited", lower: -1, upper: 1 }] }],
+  };
+  await drop(own);
+  await page.waitForFunction(() => document.getElementById("scene-text").textContent.startsWith("two crates"));
+  await page.waitForFunction(() => document.getElementById("count-bodies").textContent === "3");
+  assert.equal(await page.textContent("#count-joints"), "1");
+  await page.waitForFunction(() => Number(document.getElementById("tick-text").textContent.split(" ")[1]) > 30);
+  await page.focus("#picture");
+  await press("v");
+  assert.equal(await page.getAttribute("#clip", "aria-pressed"), "true");
+  await page.waitForFunction(() => Number(document.getElementById("tick-text").textContent.split(" ")[1]) > 60);
+  const [download] = await Promise.all([page.waitForEvent("download"), press("v")]);
+  assert.match(download.suggestedFilename(), /^lockstone-ticks-\d+-\d+\.webm$/);
+  await download.saveAs(join(scratch, "clip.webm"));
+  const film = readFileSync(join(scratch, "clip.webm"));
+  assert.ok(film.length > 5000 && film.readUInt32BE(0) === 0x1a45dfa3, `${film.length} bytes`);
+  await drop({ ...own, bodies: [...own.bodies, { shape: { box: [1, 1] } }] });
+  await page.waitForFunction(() => document.getElementById("told").textContent === "bodies[3]: box has 3 sizes");
+  await drop({ ...own, bodies: [{ ...own.bodies[0], positon: [0, 0, 0] }] });
+  await page.waitForFunction(() => document.getElementById("told").textContent === 'bodies[0]: there is no field "positon"');
+  assert.ok((await state()).tick > 60);
+})));
 
 test("the page fits a phone", { skip }, () => withStudio([], (address) => withPage(address, async (page) => {
   await page.waitForSelector("#scene-name");

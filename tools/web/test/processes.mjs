@@ -4,8 +4,9 @@ import { createRequire } from "node:module";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 
-import { root } from "./support.mjs";
+const root = fileURLToPath(new URL("../../..", import.meta.url));
 
 const builds = ["release", "demo"].map((preset) => `${root}/build/${preset}/tools/lockstone`);
 export const command = process.env.LOCKSTONE_COMMAND ?? builds.find((path) => existsSync(path));
@@ -84,11 +85,11 @@ export class Backend {
     spawnSync(command, ["token", "key", this.key]);
   }
 
-  /** The name of the file with the token. */
+  /** The name of the file with the token of a slot, or of "spectator". */
   token(slot) {
     const file = join(this.folder, `${slot}.token`);
     if (existsSync(file)) return file;
-    const issued = spawnSync(command, ["token", "issue", "--key", this.key, "--match", "1", "--player", `${100 + slot}`,
+    const issued = spawnSync(command, ["token", "issue", "--key", this.key, "--match", "1", "--player", `${slot === "spectator" ? 99 : 100 + slot}`,
       "--slot", `${slot}`, "--out", file], { encoding: "utf8" });
     if (issued.status !== 0) throw new Error(issued.stderr);
     return file;
