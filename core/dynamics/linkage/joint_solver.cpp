@@ -69,7 +69,9 @@ void JointSolver::begin(const JointRun& run) {
 
 void JointSolver::end(const JointRun& run) {
   for (LinkedBody& body : system_.bodies) {
-    if (body.pushed) set_least_inertia(run, body, 0);
+    if (!body.pushed || body.least_inertia == 0) continue;
+    set_least_inertia(run, body, 0);
+    run.inertias[body.solver] = body_inertia(body.inverse_inertia);  // bounces follow
   }
   for (const JointCluster& cluster : system_.clusters)
     system_.joints_of(cluster)[0].energy_gained = EnergyAccount::stored_gain(cluster);

@@ -75,7 +75,7 @@ class JointSolver {
   /// Then, before contacts are prepared: bodies as heavy to turn as the step needs.
   void begin(const JointRun& run);
 
-  /// After the last substep: spins as they are kept.
+  /// After the last substep, before bounces: spins as they are kept.
   void end(const JointRun& run);
 
   /// Number of clusters, without joints that are left to the coloured balls. No two share a body

@@ -145,7 +145,6 @@ void ContactSolver::run(Parallel& parallel) {
   schedule_.run(parallel, [&](const Stage& stage, std::size_t first, std::size_t end) {
     run_piece(stage, first, end);
   });
-  joints_.solver().end(joints_.run());
   totals_.end(constraints_.run());
 }
 
@@ -192,6 +191,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return totals_.note(constraints_.run());
     case StageKind::end_islands:
       return converged_->end(constraints_.run(), first, end);
+    case StageKind::end_joints:
+      return joints.end(joints_.run());
     case StageKind::keep_speeds:
       return bounce_limit_.keep_speeds(first, end);
     default:

@@ -48,6 +48,7 @@ void SubstepSchedule::plan_substeps(const TickWork& work) {
   for (int substep = 0; substep < substeps_; ++substep)
     plan_substep(work, static_cast<std::uint8_t>(substep));
   add({StageKind::end_islands}, work.converged, k_one_grain);
+  add_serial(StageKind::end_joints, work.has_joints);
   if (!work.bounces) return;
   add({StageKind::keep_speeds}, work.bodies, k_body_grain);
   add_contacts(StageKind::bounce, work);

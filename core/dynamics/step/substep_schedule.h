@@ -39,6 +39,7 @@ enum class StageKind : std::uint8_t {
   limit_energies,
   note_impulses,
   end_islands,
+  end_joints,
   keep_speeds,
   bounce,
   store,

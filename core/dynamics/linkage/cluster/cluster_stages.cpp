@@ -133,7 +133,7 @@ bool ClusterStages::solve_locks(const JointRun& run, const JointCluster& cluster
     if (!group.is_direct) {
       locks_.close_a_quarter(run, group);
     } else if (again && !system_.is_stiff(group)) {
-      locks_.step_positions(run, group);
+      locks_.step_positions(run, cluster, group);
     } else {
       locks_.solve_positions(run, cluster, group);
       is_solved = true;

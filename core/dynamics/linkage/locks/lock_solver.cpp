@@ -150,6 +150,12 @@ std::int64_t LockSolver::set_speed_errors(const JointRun& run, const JointGroup&
   return greatest;
 }
 
+bool LockSolver::has_open_locks(const JointGroup& group) const {
+  return std::ranges::any_of(system_.joints_of(group), [this](std::uint32_t index) {
+    return is_open(system_.joints[index].rows);
+  });
+}
+
 void LockSolver::factor(const JointRun& run, JointGroup& group, bool ahead) {
   if (group.has_solved_loops()) return loops_.factor(run, group, ahead);
   trees_.factor(group);
@@ -160,10 +166,15 @@ void LockSolver::solve(const JointRun& run, JointGroup& group, bool positions) {
   trees_.solve(run, group, positions);
 }
 
-void LockSolver::step_positions(const JointRun& run, JointGroup& group) {
+// Where locks were open already, the step counts only if it takes no more energy than it may.
+void LockSolver::step_positions(const JointRun& run, const JointCluster& cluster,
+                                JointGroup& group) {
   LKS_ASSERT(group.is_direct);
+  const bool was_open = has_open_locks(group);
+  if (was_open) save(run, group);
   look_ahead(run, group, false);
   if (set_position_errors(group) > 0) solve(run, group, true);
+  if (was_open && closes_too_fast(run, system_, cluster)) restore(run, group);
 }
 
 void LockSolver::close_a_quarter(const JointRun& run, JointGroup& group) {
@@ -179,9 +190,7 @@ void LockSolver::solve_positions(const JointRun& run, const JointCluster& cluste
                                  JointGroup& group) {
   LKS_ASSERT(group.is_direct);
   save(run, group);
-  const bool was_open = std::ranges::any_of(system_.joints_of(group), [this](std::uint32_t index) {
-    return is_open(system_.joints[index].rows);
-  });
+  const bool was_open = has_open_locks(group);
   const bool holds = find_positions(run, group) <= k_lost;
   const bool must_be_passive = was_open || cluster.is_passive || cluster.moves_first;
   if (holds && !(must_be_passive && closes_too_fast(run, system_, cluster))) return;

@@ -24,7 +24,7 @@ class LockSolver {
   // Before positions move.
 
   /// One step of Newton's method: enough between drives and limits that push again.
-  void step_positions(const JointRun& run, JointGroup& group);
+  void step_positions(const JointRun& run, const JointCluster& cluster, JointGroup& group);
 
   /// Finds velocities such that the locks of a direct group hold after the substep.
   void solve_positions(const JointRun& run, const JointCluster& cluster, JointGroup& group);
@@ -56,6 +56,8 @@ class LockSolver {
   [[nodiscard]] std::span<std::int64_t> errors_at(const JointGroup& group, std::uint32_t place);
   std::int64_t set_position_errors(const JointGroup& group);
   std::int64_t set_speed_errors(const JointRun& run, const JointGroup& group, bool positions);
+  /// Whether any lock was open by more than a good step leaves, as the rows were read.
+  [[nodiscard]] bool has_open_locks(const JointGroup& group) const;
   void factor(const JointRun& run, JointGroup& group, bool ahead);
   void solve(const JointRun& run, JointGroup& group, bool positions);
   [[nodiscard]] std::int64_t find_positions(const JointRun& run, JointGroup& group);

@@ -49,8 +49,9 @@ void BounceLimit::note_gain(std::uint32_t number, const BodyRecord& body, const 
   for (int i = 0; i < 3; ++i)
     work.add(constants.gain[static_cast<std::size_t>(i)],
              (body.position[i].raw - start.position[i].raw) * step_.substep_rate());
+  // The inertia among the constants turns with bodies that have joints.
   gained_[number] = twice_energy(body, inertia_now(body)) -
-                    twice_energy(start, constants.inverse_inertia) - work.rounded(31);
+                    twice_energy(start, inertia_now(start)) - work.rounded(31);
 }
 
 BounceLimit::Bounce BounceLimit::bounce_of(std::uint32_t number, const BodyRecord& body) const {

@@ -13,6 +13,7 @@
 #include "core/dynamics/impact/impact_response.h"
 #include "core/math/roots.h"
 #include "core/world/derived/quantities.h"
+#include "core/world/phases/motion/early_stop.h"
 #include "core/world/phases/motion/fronts.h"
 #include "core/world/phases/motion/passes.h"
 #include "core/world/phases/narrow/contact_surfaces.h"
@@ -284,13 +285,17 @@ void ContinuousCollision::sweep_joined(std::uint32_t body, StepReport& report) {
     if (sooner) first = next, body_of_first = each;
   }
   ++report.impacts;
+  EarlyStop stop(world_.header.gravity, world_.time_step);
   for (const std::uint32_t each : joined_movers_) {
     const Sweep motion = motion_in_tick(each);
     const Transform pose = pose_at(motion, first.impact.fraction);
     passes_.note(each, motion, {}, first.impact.fraction);
+    stop.add(world_.bodies[each], motion.start, moved_.start_speeds(each), pose.position);
     stop_at(world_.bodies[each], pose);
     far_movers_[each] = 0;
   }
+  for (const std::uint32_t each : joined_movers_)
+    stop.slow(world_.bodies[each]);
   resolve(body_of_first, first, first.impact.fraction);
   if (carries(first.body))
     carry_joined(body_of_first, motion_of(first.body, first.impact.fraction));

@@ -7,7 +7,10 @@
 namespace lockstone {
 
 MovedBodies::MovedBodies(WorldData& world)
-    : world_(world), starts_(world.def.body_capacity), leaves_fat_box_(world.def.body_capacity) {
+    : world_(world),
+      starts_(world.def.body_capacity),
+      start_speeds_(world.def.joint_capacity == 0 ? 0 : world.def.body_capacity),
+      leaves_fat_box_(world.def.body_capacity) {
   bodies_.reserve(world.def.body_capacity);
   looks_.reserve(most_looks(world.def));
 }

@@ -13,6 +13,10 @@
 
 namespace lockstone {
 
+struct BodySpeeds {
+  Vec3<Velocity> velocity, spin;
+};
+
 class MovedBodies {
  public:
   /// Places for looks, of all bodies together.
@@ -37,7 +41,13 @@ class MovedBodies {
   /// Where a listed body was before it moved; to be noted before it does.
   [[nodiscard]] const Transform& start(std::uint32_t body) const { return starts_[body]; }
   void note_start(std::uint32_t body) {
-    starts_[body] = {world_.bodies[body].position, world_.bodies[body].orientation};
+    const BodyRecord& record = world_.bodies[body];
+    starts_[body] = {record.position, record.orientation};
+    if (!start_speeds_.empty()) start_speeds_[body] = {record.velocity, record.spin};
+  }
+  /// Its velocities then; only of worlds with room for joints.
+  [[nodiscard]] const BodySpeeds& start_speeds(std::uint32_t body) const {
+    return start_speeds_[body];
   }
 
   /// Begins a tick's list of looks.
@@ -66,6 +76,7 @@ class MovedBodies {
   WorldData& world_;
   std::vector<std::uint32_t> bodies_;
   std::vector<Transform> starts_;             // by body
+  std::vector<BodySpeeds> start_speeds_;      // by body
   std::vector<std::uint8_t> leaves_fat_box_;  // by place in `bodies_`
   std::vector<Pair> looks_;
   bool has_lost_looks_ = false;

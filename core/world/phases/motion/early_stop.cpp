@@ -1,0 +1,59 @@
+#include "core/world/phases/motion/early_stop.h"
+
+#include <algorithm>
+
+#include "core/dynamics/body/energy.h"
+#include "core/dynamics/body/inertia.h"
+#include "core/dynamics/body/motion.h"
+#include "core/math/product_sum.h"
+
+namespace lockstone {
+namespace {
+
+// Twice, of each mass.
+std::int64_t twice_energy(const BodyRecord& body, const Quat& orientation,
+                          const BodySpeeds& speeds) {
+  const InverseInertia inertia = inverse_inertia(body, to_matrix(orientation));
+  return energy_product(speeds.velocity, speeds.velocity, speeds.spin,
+                        surface_velocity(inertia, speeds.spin));
+}
+
+}  // namespace
+
+// Twice, of each mass, by what gravity and forces add to the velocity in a tick.
+std::int64_t EarlyStop::work_on(const Vec3<Velocity>& gain, const Vec3<Position>& from,
+                                const Vec3<Position>& to) const {
+  ProductSum work;
+  for (int i = 0; i < 3; ++i)
+    work.add(gain[i].raw, (to[i].raw - from[i].raw) * step_.tick_rate);
+  return work.rounded(31);
+}
+
+void EarlyStop::add(const BodyRecord& body, const Transform& start, const BodySpeeds& start_speeds,
+                    const Vec3<Position>& stop) {
+  LKS_ASSERT(body.is_dynamic());
+  const BlockFloat inverse = body.inverse_mass_value();
+  if (inverse.mantissa == 0) return;
+  if (unit_ == BlockFloat{}) unit_ = inverse;
+  const auto add = [&](std::int64_t& sum, std::int64_t each) {
+    sum = raw::saturating_add(sum, scale_saturating(each, quotient(unit_, inverse), 0));
+  };
+  const std::int64_t now = twice_energy(body, body.orientation, {body.velocity, body.spin});
+  const Vec3<Velocity> gain = tick_gain(body, gravity_, step_);
+  add(energy_, now);
+  add(gain_, now - twice_energy(body, start.orientation, start_speeds) -
+                 work_on(gain, start.position, stop));
+  add(lost_, work_on(gain, stop, body.position));
+}
+
+void EarlyStop::slow(BodyRecord& body) const {
+  const std::int64_t excess = std::min(gain_, lost_);
+  if (excess <= 0 || energy_ <= 0) return;
+  const Unit share = Unit::from_raw(root_of_share(raw::saturating_add(energy_, -excess), energy_));
+  for (int i = 0; i < 3; ++i) {
+    body.velocity[i] = times(body.velocity[i], share);
+    body.spin[i] = times(body.spin[i], share);
+  }
+}
+
+}  // namespace lockstone
