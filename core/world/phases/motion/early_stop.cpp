@@ -20,7 +20,7 @@ std::int64_t twice_energy(const BodyRecord& body, const Quat& orientation,
 
 }  // namespace
 
-// Twice, of each mass, by what gravity and forces add to the velocity in a tick.
+// Twice, of each mass. `gain`: of the velocity in a tick, by gravity and forces.
 std::int64_t EarlyStop::work_on(const Vec3<Velocity>& gain, const Vec3<Position>& from,
                                 const Vec3<Position>& to) const {
   ProductSum work;
