@@ -89,6 +89,21 @@ TEST(JointEnergy, OfBarsThatWhirlOnLeversIsNeverGained) {
             << static_cast<int>(kind) << ", seed " << seed << ", " << spin << " rad/s";
 }
 
+// A cube on a hinge with limits that are far, without gravity: as fast as its moment says.
+TEST(JointEnergy, IsTheWorkOfATorque) {
+  World world = test::make_world({.body_capacity = 4, .gravity = {}});
+  JointDef hinge = JointDef::of(JointKind::hinge, test::add_fixed(world), {});
+  hinge.body_b = test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
+  hinge.angular[0] = {.mode = AxisMode::limited, .lower = -3_rad, .upper = 3_rad};
+  (void)test::join(world, hinge);
+  for (int tick = 0; tick < 60; ++tick) {
+    ASSERT_EQ(world.apply(ApplyTorque{hinge.body_b, {500_Nm, {}, {}}}), Status::ok);
+    (void)world.step();
+  }
+  const double moment = to_double(world.body(hinge.body_b).mass.mass) / 6;
+  EXPECT_NEAR(to_double(world.body(hinge.body_b).angular_velocity.x), 500 / moment, 1e-3);
+}
+
 TEST(JointEnergy, IsGivenBackOnlyWhereTheSubstepDoesNotResolveTheTurning) {
   std::uint32_t calm = 0, wild = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

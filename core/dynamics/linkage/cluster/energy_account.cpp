@@ -25,6 +25,15 @@ constexpr int k_record_shift = 32 - k_gained_frac_bits;
 // Less than this, twice for each mass, is rounding: (0.1 mm/s)², Q32.
 constexpr std::int64_t k_rounding_energy = 43;
 
+// Twice the work of the body's torque in the substep, by its mass, (m/s)², Q32: at the mean rate.
+std::int64_t work_of_torque(const JointRun& run, const LinkedBody& body) {
+  const auto& [x, y, z] = run.bodies[body.solver].spin_gain;
+  if ((x | y | z) == 0) return 0;
+  const Vec3<Velocity> gain{Velocity::from_raw(x), Velocity::from_raw(y), Velocity::from_raw(z)};
+  const Vec3<Velocity> now = motion_of(body, run.rows[body.solver]).surface;
+  return energy_product({}, {}, gain, start_motion_of(body).surface + now);
+}
+
 }  // namespace
 
 void EnergyAccount::open(JointCluster& cluster) {
@@ -154,7 +163,7 @@ void EnergyAccount::settle(const JointRun& run, JointCluster& cluster) {
       twice.add(
           run.bodies[body.solver].gain[static_cast<std::size_t>(i)],
           (body.pose.position[i].raw - body.start_position[i].raw) * system_.step.substep_rate());
-    return twice.rounded(31);
+    return raw::saturating_add(twice.rounded(31), work_of_torque(run, body));
   });
   cluster.gained = raw::saturating_add(cluster.gained, raw::saturating_add(cluster.energy, -work));
   // Where little moves, at a turning point, the account stays as it came from faster ticks.
