@@ -23,6 +23,7 @@ StepReport World::Impl::step(PairFilter* only) {
   mover.end();
   refresh_moved();
   find_events();
+  joint_registry.advance();
   joint_registry.mark_awake();
   joint_registry.break_overloaded();
   island_sleep.run(report);
@@ -70,8 +71,8 @@ void World::Impl::solve_contacts(StepReport& report) {
     const StageTimer timer(profiler, StepStage::prepare);
     solver.prepare({std::span(bodies).first(header.body_limit), cache.rotations(),
                     found.manifold_ids, found.manifolds, found.surfaces, found.records,
-                    std::span(joints).first(header.joint_limit), links, header.gravity, header.tick,
-                    events.hits().watched()},
+                    std::span(joints).first(header.joint_limit), links, assets.get(),
+                    header.gravity, header.tick, events.hits().watched()},
                    parallel);
   }
   {

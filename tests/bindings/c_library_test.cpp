@@ -87,6 +87,8 @@ TEST(CLibrary, JointsHaveTheNumbersOfTheCore) {
   expect_same(LKS_JOINT_PULLEY, JointKind::pulley);
   expect_same(LKS_JOINT_GEAR, JointKind::gear);
   expect_same(LKS_JOINT_RACK, JointKind::rack);
+  expect_same(LKS_JOINT_RATCHET, JointKind::ratchet);
+  expect_same(LKS_JOINT_PATH, JointKind::path);
   expect_same(LKS_AXIS_LOCKED, AxisMode::locked);
   expect_same(LKS_AXIS_FREE, AxisMode::free);
   expect_same(LKS_AXIS_LIMITED, AxisMode::limited);

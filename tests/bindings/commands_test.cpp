@@ -383,7 +383,7 @@ class JointsThroughC : public CommandsThroughC {
  protected:
   void SetUp() override {
     CommandsThroughC::SetUp();
-    for (std::uint32_t kind = LKS_JOINT_DISTANCE; kind <= LKS_JOINT_RACK; ++kind)
+    for (std::uint32_t kind = LKS_JOINT_DISTANCE; kind <= LKS_JOINT_PATH; ++kind)
       add_joint(kind);
   }
 
@@ -409,6 +409,8 @@ class JointsThroughC : public CommandsThroughC {
     def.collide = true;
     raw.collide = 1;
     def.user_data = raw.user_data = kind;
+    def.path = path_;
+    raw.path = path_.value;
     const Result<JointHandle> made = world_->create_joint(def);
     lks_joint id = 0;
     expect_same(made.status(), lks_create_joint(twin_, &raw, &id), "create joint");
@@ -422,7 +424,7 @@ class JointsThroughC : public CommandsThroughC {
 };
 
 TEST_F(JointsThroughC, OfEveryKindGiveTheSameState) {
-  EXPECT_EQ(joints_.size(), 11U);
+  EXPECT_EQ(joints_.size(), 13U);
 }
 
 TEST_F(JointsThroughC, ViewsShowTheJointAsTheCoreDoes) {

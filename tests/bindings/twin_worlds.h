@@ -6,6 +6,7 @@
 
 #include <lockstone/hull.h>
 #include <lockstone/literals.h>
+#include <lockstone/path.h>
 #include <lockstone/world.h>
 
 #include "tests/support/sample_assets.h"
@@ -44,8 +45,16 @@ class TwinWorlds : public ::testing::Test {
     const std::vector<std::byte> bytes = field->canonical_bytes();
     EXPECT_EQ(lks_assets_add_bytes(assets_, bytes.data(), bytes.size(), &id), LKS_OK);
     EXPECT_EQ(id, field_.value);
+    const std::vector<PathPoint> bend{{{}}, {{4_m, 1_m, 0_m}}, {{8_m, 1_m, 3_m}}};
+    std::vector<lks_path_point> raw_bend;
+    for (const PathPoint& point : bend)
+      raw_bend.push_back({c::raw_of(point.position), c::raw_of(point.up)});
+    const AssetPtr path = Path::build(bend, false).path;
+    path_ = path->id();
+    EXPECT_EQ(lks_assets_add_path(assets_, raw_bend.data(), raw_bend.size(), 0, &id), LKS_OK);
+    EXPECT_EQ(id, path_.value);
     world_.emplace(
-        World::create(def_, std::make_shared<AssetSet>(std::vector{hull, field})).value());
+        World::create(def_, std::make_shared<AssetSet>(std::vector{hull, field, path})).value());
     make_twin();
   }
 
@@ -100,6 +109,7 @@ class TwinWorlds : public ::testing::Test {
   WorldDef def_;
   AssetId hull_;
   AssetId field_;
+  AssetId path_;
   std::optional<World> world_;
   lks_world* twin_ = nullptr;
   lks_assets* assets_ = nullptr;

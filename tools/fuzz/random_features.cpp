@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <lockstone/path.h>
+
 #include "tools/scenes/assets.h"
 
 namespace lockstone::fuzz {
@@ -155,7 +157,53 @@ void drive_turning_locks(World& world, std::uint64_t seed) {
   }
 }
 
+// Ratchets and path joints, in a third of all scenes. Draws its numbers apart.
+void drive_tracks(World& world, std::uint64_t seed) {
+  Random gate(mix(seed ^ 0x7261696c));
+  if (!chance(gate, 3)) return;
+  Random random(mix(~seed ^ mix(world.tick() + 13)));
+  const int joints = world.tick() == 0 ? random.between(1, 6) : chance(random, 40) ? 1 : 0;
+  for (int i = 0; i < joints; ++i) {
+    const BodyHandle a = any_body(world, random);
+    const BodyHandle b = any_body(world, random);
+    JointDef def = JointDef::of(chance(random, 2) ? JointKind::ratchet : JointKind::path, a, b);
+    if (def.kind == JointKind::path) def.path = random_path(seed)->id();
+    if (def.kind == JointKind::ratchet) def.ratio = Number::from_integer(random.between(2, 1000));
+    if (chance(random, 2)) def.linear[0].mode = AxisMode::free;
+    for (AngularAxis& axis : def.angular)
+      if (def.kind == JointKind::path && chance(random, 2)) axis.mode = AxisMode::locked;
+    if (chance(random, 2)) def.angular[0].max_effort.raw = log_between(random, 1, 1LL << 50);
+    (void)world.create_joint(def);
+  }
+  if (!chance(random, 8)) return;
+  LinearAxis along{.mode = chance(random, 2) ? AxisMode::free : AxisMode::limited};
+  along.lower = scenes::millimetres_long(random.between(-1000, 9000));
+  along.upper = along.lower + scenes::millimetres_long(random.between(0, 9000));
+  along.target = along.lower;
+  if (chance(random, 2))
+    along.hertz.raw = static_cast<std::int32_t>(log_between(random, 1, 1000LL << 20));
+  along.max_effort.raw = chance(random, 2) ? log_between(random, 1, 1LL << 50) : 0;
+  along.speed = SolverVelocity::from_integer(random.between(-100, 100));
+  (void)world.apply(SetLinearAxis{any_joint(world, random), 0, along});
+}
+
 }  // namespace
+
+AssetPtr random_path(std::uint64_t seed) {
+  Random random(mix(seed ^ 0x70617468));
+  const bool closed = chance(random, 2);
+  for (;;) {
+    std::vector<PathPoint> points(static_cast<std::size_t>(random.between(3, 12)));
+    const auto reach = static_cast<std::int32_t>(log_between(random, 200, 30'000));
+    for (PathPoint& point : points) {
+      for (int axis = 0; axis < 3; ++axis)
+        point.position[axis] = scenes::millimetres_long(random.between(-reach, reach));
+      const std::int32_t x = random.between(-100, 100), z = random.between(-100, 100);
+      point.up = {Unit::from_ratio(x, 100), Unit::from_integer(1), Unit::from_ratio(z, 100)};
+    }
+    if (const PathResult made = Path::build(points, closed); made.ok()) return made.path;
+  }
+}
 
 void drive_features(World& world, std::uint64_t seed) {
   drive_events(world, seed);
@@ -163,6 +211,7 @@ void drive_features(World& world, std::uint64_t seed) {
   drive_rules(world, seed);
   drive_vehicles(world, seed);
   drive_turning_locks(world, seed);
+  drive_tracks(world, seed);
   drive_terrain(world, seed);
 }
 

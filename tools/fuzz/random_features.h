@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include <lockstone/asset.h>
 #include <lockstone/world.h>
 
 #include "tools/arena/integers.h"
@@ -34,8 +35,11 @@ namespace lockstone::fuzz {
 /// with and without them.
 void drive_events(World& world, std::uint64_t seed);
 
-/// Changes of bodies, fluids, rules, vehicles, locks of joints and terrain, now and then, and of
-/// events as above. The world may refuse some.
+/// The path of a scene of this seed, drawn apart.
+[[nodiscard]] AssetPtr random_path(std::uint64_t seed);
+
+/// Changes of bodies, fluids, rules, vehicles, locks of joints, ratchets, path joints and terrain,
+/// now and then, and of events as above. The world may refuse some.
 void drive_features(World& world, std::uint64_t seed);
 
 }  // namespace lockstone::fuzz

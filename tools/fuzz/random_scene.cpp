@@ -232,7 +232,7 @@ JointFrame random_frame(Random& random) {
 }
 
 JointDef random_joint(const World& world, Random& random) {
-  const auto kind = static_cast<JointKind>(random.between(1, static_cast<int>(k_last_joint_kind)));
+  const auto kind = static_cast<JointKind>(random.between(1, static_cast<int>(JointKind::rack)));
   const BodyHandle a = any_body(world, random);
   const BodyHandle b = any_body(world, random);
   JointDef def = JointDef::of(kind, a, b);
@@ -329,7 +329,9 @@ RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims
     : seed_(mix(seed) ^ mix(~index)), with_rims_(with_rims) {
   Random random(seed_);
   def_ = random_def(random);
-  assets_ = std::make_shared<const AssetSet>(random_assets(random));
+  std::vector<AssetPtr> assets = random_assets(random);
+  assets.push_back(random_path(seed_));
+  assets_ = std::make_shared<const AssetSet>(std::move(assets));
 }
 
 World RandomScene::make(BroadPhaseKind broad_phase) const {
@@ -339,8 +341,10 @@ World RandomScene::make(BroadPhaseKind broad_phase) const {
   Random random(mix(seed_ ^ 1));
   const Neighbourhood around(random);
   const int bodies = random.between(1, 24);
+  std::vector<AssetPtr> shapes(assets_->all().begin(), assets_->all().end());
+  std::erase_if(shapes, [](const AssetPtr& asset) { return asset->kind() == ShapeKind::path; });
   for (int i = 0; i < bodies; ++i)
-    (void)world.create_body(random_body(random, around, assets_->all(), with_rims_));
+    (void)world.create_body(random_body(random, around, shapes, with_rims_));
   const int joints = chance(random, 2) ? random.between(1, 20) : 0;
   for (int i = 0; i < joints; ++i)
     (void)world.create_joint(random_joint(world, random));

@@ -119,7 +119,10 @@ class RowWriter {
       LKS_ASSERT(settings.lower <= settings.upper);
       const std::int64_t above = value - value_of(axis, settings.lower);
       if (settings.lower == settings.upper) return push(make, axis, RowKind::lock, above);
-      add_limit(axis, make, above, value_of(axis, settings.upper) - value);
+      if (place_.joint.is(JointKind::ratchet) && axis == 3)
+        push(make, axis, RowKind::limit, beyond_tooth(above));
+      else
+        add_limit(axis, make, above, value_of(axis, settings.upper) - value);
     }
     if (!settings.is_driven() || acts_together(axis)) return;
     const auto drive = [&] {
@@ -128,7 +131,7 @@ class RowWriter {
       return row;
     };
     const std::int64_t error = value - (soft ? 0 : value_of(axis, settings.target));
-    push(drive, axis, RowKind::drive, axis == 3 && mode == AxisMode::free ? nearer(error) : error);
+    push(drive, axis, RowKind::drive, is_wrapped(axis) ? nearer(error) : error);
   }
 
   /// A length or an angle as an error in m, Q32.
@@ -184,6 +187,16 @@ class RowWriter {
   }
 
  private:
+  // Whether an axis turns on and on.
+  [[nodiscard]] bool is_wrapped(std::size_t axis) const {
+    return axis == 3 &&
+           (place_.joint.mode(3) == AxisMode::free || place_.joint.is(JointKind::ratchet));
+  }
+  // The turn beyond the tooth that holds a ratchet: −π/2 … 3π/2.
+  [[nodiscard]] std::int64_t beyond_tooth(std::int64_t above) const {
+    const std::int64_t whole = arc(k_two_pi_q28 << 4);
+    return 4 * above < -whole ? above + whole : 4 * above >= 3 * whole ? above - whole : above;
+  }
   // The twist that is left, the shorter way round.
   [[nodiscard]] std::int64_t nearer(std::int64_t error) const {
     const std::int64_t whole = arc(k_two_pi_q28 << 4), half = whole / 2;

@@ -7,6 +7,7 @@
 #include "core/dynamics/joint/geared_rows.h"
 #include "core/dynamics/joint/joint_geometry.h"
 #include "core/dynamics/joint/joint_numbers.h"
+#include "core/dynamics/joint/joint_path.h"
 #include "core/dynamics/joint/joint_row_writer.h"
 #include "core/dynamics/joint/joint_vectors.h"
 #include "core/dynamics/joint/turn_springs.h"
@@ -41,17 +42,63 @@ class SixAxisRows {
   void set_frames() {
     frame_a_ = frame_of(place().a.rotation, place().frames.a);
     frame_b_ = frame_of(place().b.rotation, place().frames.b);
+    if (place().curve != nullptr) follow_path();
+  }
+
+  [[gnu::noinline, gnu::cold]] void follow_path() {
+    LKS_ASSERT(place().joint.is(JointKind::path) && !has_world_axes(place().joint));
+    path_ = path_frame(*place().curve, frame_a_, arms_.gap, path_parameter(place().joint));
+    frame_a_ = path_.axes;
+  }
+
+  // The arm of body a reaches to anchor b: there rows along axes of frame a act.
+  [[nodiscard]] JointArms reach() const { return {arms_.a + arms_.gap, arms_.b, arms_.gap}; }
+
+  // Along the path; on a closed one the shorter way from the target of a spring.
+  [[nodiscard]] std::int64_t path_distance() const {
+    LKS_ASSERT(place().curve->length() > Position{});
+    const std::int64_t whole = place().curve->length().raw, distance = path_.distance.raw;
+    if (!place().curve->is_closed() || place().joint.mode(0) != AxisMode::free) return distance;
+    const std::int64_t target = rows_.value_of(0, place().joint.axes[0].target);
+    const std::int64_t error = (distance - target) % whole;
+    return target + (2 * error > whole    ? error - whole
+                     : 2 * error < -whole ? error + whole
+                                          : error);
+  }
+
+  // A row about an axis. The frame of a path joint turns on its way besides.
+  [[nodiscard]] JointRow angular_row(const RawVec3& axis) const {
+    JointRow row = rows_.angular_row(axis);
+    if (place().curve != nullptr) subtract_turning(axis, row);
+    return row;
+  }
+
+  [[gnu::noinline, gnu::cold]] void subtract_turning(const RawVec3& axis, JointRow& row) const {
+    ProductSum sum;
+    for (std::size_t i = 0; i < 3; ++i)
+      sum.add(axis[i], path_.turning[i]);
+    const std::int64_t turn = shifted(sum.rounded(30), -place().exponent);
+    LKS_ASSERT(turn <= std::int64_t{1} << 44 && turn >= -(std::int64_t{1} << 44));
+    const JointRow way = rows_.linear_row(reach(), raw_of(frame_a_.x));
+    for (RawVec3 JointDirections::*part :
+         {&JointDirections::linear_a, &JointDirections::linear_b, &JointDirections::angular_a,
+          &JointDirections::angular_b}) {
+      for (std::size_t i = 0; i < 3; ++i)
+        (row.*part)[i] -= product_rounded((way.*part)[i], turn, 30);
+    }
   }
 
   void fill_linear() {
-    // The arm of body a reaches to anchor b: there the row acts.
-    const JointArms reach{arms_.a + arms_.gap, arms_.b, arms_.gap};
+    const bool on_path = place().curve != nullptr;
+    const JointArms reach = this->reach();
+    const Vec3<Position>& gap = on_path ? path_.gap : arms_.gap;
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<std::size_t>(i);
       if (!rows_.is_wanted(axis)) continue;
       const RawVec3 n = raw_of(frame_a_.column(i));
       rows_.add_axis(
-          axis, [&] { return rows_.linear_row(reach, n); }, along(arms_.gap, n));
+          axis, [&] { return rows_.linear_row(reach, n); },
+          on_path && i == 0 ? path_distance() : along(gap, n));
     }
   }
 
@@ -102,7 +149,7 @@ class SixAxisRows {
       RawVec3 sum;
       for (int i = 0; i < 3; ++i)
         sum[static_cast<std::size_t>(i)] = std::int64_t{frame_a_.x[i].raw} + frame_b_.x[i].raw;
-      return rows_.angular_row(divided(sum, base));
+      return angular_row(divided(sum, base));
     };
     if (rows_.is_rigid(3)) {
       const std::int64_t sine = cosine(frame_a_.z, frame_b_.y) - cosine(frame_a_.y, frame_b_.z);
@@ -120,7 +167,7 @@ class SixAxisRows {
         along({Position::from_raw(x[0]), Position::from_raw(x[1]), Position::from_raw(x[2])}, t);
     if (rows_.is_rigid(axis))
       return rows_.add_axis(
-          axis, [&] { return rows_.angular_row(cross_raw(x, t)); }, rows_.arc(b * 4));
+          axis, [&] { return angular_row(cross_raw(x, t)); }, rows_.arc(b * 4));
     const std::int64_t a = cosine(frame_a_.x, frame_b_.x);
     const std::int64_t square = raw::round_shift(a * a, 30) + raw::round_shift(b * b, 30);
     if (square < k_one / 64) return;
@@ -129,7 +176,7 @@ class SixAxisRows {
       RawVec3 u;
       for (std::size_t i = 0; i < 3; ++i)
         u[i] = raw::round_shift(a * t[i], 30) - raw::round_shift(b * xa[i], 30);
-      return rows_.angular_row(divided(cross_raw(x, u), square));
+      return angular_row(divided(cross_raw(x, u), square));
     };
     const std::int64_t angle = std::int64_t{atan2_raw(b, a).raw} << 5;
     rows_.add_axis(axis, row, rows_.arc(angle), limits);
@@ -145,7 +192,7 @@ class SixAxisRows {
     const std::int64_t left = (std::int64_t{place().joint.axes[4].upper} << 5) - angle;
     if (d.length < std::uint64_t{1} << 16 && a > 0) return;  // no direction, and far from the limit
     const auto row = [&] {
-      JointRow flipped = rows_.angular_row(negated(raw_of(d.unit)));
+      JointRow flipped = angular_row(negated(raw_of(d.unit)));
       flipped.flipped = true;
       return flipped;
     };
@@ -155,6 +202,7 @@ class SixAxisRows {
   RowWriter& rows_;
   const JointArms& arms_;
   Mat3 frame_a_{}, frame_b_{};
+  PathFrame path_{};  // of a path joint
 };
 
 void fill(RowWriter& rows) {

@@ -16,6 +16,10 @@
 
 namespace lockstone {
 
+namespace geometry {
+class Curve;
+}
+
 /// Where a body is within a tick.
 struct JointPose {
   Vec3<Position> position{};
@@ -64,10 +68,11 @@ struct JointPlace {
   const JointPose& b;
   int scale_a;  // exponents of the bodies
   int scale_b;
-  int exponent;                // of angular rows
-  std::uint8_t far = 0;        // axes, a bit each, whose limits get no rows
-  bool holds_a_point = false;  // as below
-  bool turns_locks = false;    // the record does
+  int exponent;                            // of angular rows
+  std::uint8_t far = 0;                    // axes, a bit each, whose limits get no rows
+  bool holds_a_point = false;              // as below
+  bool turns_locks = false;                // the record does
+  const geometry::Curve* curve = nullptr;  // of a path joint
 };
 
 /// The parts of a joint's rows to compute.

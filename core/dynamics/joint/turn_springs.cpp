@@ -106,6 +106,7 @@ SpringTurnRows swing_rows(const Mat3& target, const Mat3& frame_b) {
 }  // namespace
 
 SpringTurn spring_turn(const JointRecord& joint) {
+  if (joint.is(JointKind::path)) return SpringTurn::apart;
   const auto has_spring_or_lock = [&](std::size_t axis) {
     return is_sprung(joint, axis) || joint.mode(axis) == AxisMode::locked;
   };

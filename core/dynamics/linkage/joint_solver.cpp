@@ -27,9 +27,10 @@ JointSolver::JointSolver(const TimeStep& step, const Capacities& most, bool solv
       stages_(system_, locks_, account_),
       island_joints_(system_) {}
 
-void JointSolver::clear() {
+void JointSolver::clear(const AssetSet* assets) {
   bodies_.clear();
   system_.clear();
+  system_.assets = assets;
   account_.clear();
 }
 

@@ -49,7 +49,8 @@ class JointSolver {
   JointSolver(const JointSolver&) = delete;
   JointSolver& operator=(const JointSolver&) = delete;
 
-  void clear();
+  /// Begins a tick with as many joints as are added; the assets have the paths of joints.
+  void clear(const AssetSet* assets);
 
   /// One end of a joint.
   struct Side {

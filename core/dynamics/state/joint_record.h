@@ -48,8 +48,8 @@ struct JointAxisRecord {
 /// relative to centres of mass and principal axes.
 struct JointRecord {
   std::array<JointAxisRecord, k_joint_axes> axes{};  // along x, y, z; twist, swing y, swing z
-  Vec3<Position> ground_a{};
-  Vec3<Position> ground_b{};
+  Vec3<Position> ground_a{};  // of a pulley; of a path joint its x is a parameter
+  Vec3<Position> ground_b{};  // of a pulley; of a path joint its x is the path's name
   std::uint64_t user_data = 0;
   Force break_force{};
   Torque break_torque{};
@@ -75,8 +75,18 @@ struct JointRecord {
   [[nodiscard]] AxisMode mode(std::size_t axis) const { return static_cast<AxisMode>(modes[axis]); }
 };
 
+/// A path joint keeps the name of its path, and where on it it is, in place of a pulley's points.
+[[nodiscard]] inline AssetId path_of(const JointRecord& joint) {
+  return {static_cast<std::uint64_t>(joint.ground_b.x.raw)};
+}
+/// Its place, by which the next one is found: along the chords of the path's points, m.
+[[nodiscard]] inline Position path_parameter(const JointRecord& joint) {
+  return joint.ground_a.x;
+}
+
 /// Whether a joint locks all turning: frame B then stays at the rotation vector of the targets.
 [[nodiscard]] inline bool locks_turning(const JointRecord& joint) {
+  if (joint.is(JointKind::path)) return false;
   for (std::size_t i = 3; i < k_joint_axes; ++i)
     if (joint.mode(i) != AxisMode::locked || joint.axes[i].is_driven()) return false;
   return true;

@@ -3,6 +3,7 @@
 #include <lockstone/hull.h>
 #include <lockstone/load_asset.h>
 #include <lockstone/mesh.h>
+#include <lockstone/path.h>
 
 #include "core/geometry/assets/asset_frame.h"
 
@@ -34,6 +35,8 @@ Result<AssetPtr> load_asset(ByteView canonical, const AssetSet& known) {
       return as_asset(HeightField::from_bytes(canonical));
     case ShapeKind::compound:
       return as_asset(Compound::from_bytes(canonical, known));
+    case ShapeKind::path:
+      return as_asset(Path::from_bytes(canonical));
     default:
       return Status::malformed;
   }

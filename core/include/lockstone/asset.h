@@ -17,6 +17,7 @@ namespace lockstone {
 
 namespace geometry {
 struct HeightEditing;
+class Curve;
 struct LocalBounds;
 struct MeshKernels;
 struct Polytope;
@@ -66,6 +67,9 @@ class Asset {
 
   /// The functions that change its heights in a world; null for an asset that is no height field.
   [[nodiscard]] virtual const geometry::HeightEditing* height_editing() const { return nullptr; }
+
+  /// The curve of a path; null for other assets.
+  [[nodiscard]] virtual const geometry::Curve* curve() const { return nullptr; }
 
   /// Calls the visitor for every part whose bounds meet `region` (asset frame, closed), in
   /// ascending order of part.

@@ -2,7 +2,8 @@
 //
 // A joint has a frame on each body. Frame B moves against frame A in six ways: along the three axes
 // of frame A, and about them. Each of the six is locked, free or limited, and may have a drive (a
-// spring or a motor). All kinds but distance, pulley, gear and rack are settings of these six.
+// spring or a motor). All kinds but distance, pulley, gear and rack are settings of these six; a
+// ratchet is a hinge besides, and the frame A of a path joint goes along a path.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 
 #include <lockstone/body.h>
 #include <lockstone/quat.h>
+#include <lockstone/shape.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
@@ -37,8 +39,10 @@ enum class JointKind : std::uint8_t {
   pulley = 9,  ///< length a + ratio · length b stays, each from a point to one fixed in the world
   gear = 10,   ///< turning about x of frame a + ratio · that about x of frame b stays 0
   rack = 11,   ///< turning about x of frame a + ratio · motion along x of frame b stays 0
+  ratchet = 12,  ///< a hinge that turns one way: `ratio` teeth in a turn hold it
+  path = 13,     ///< the point of frame b stays on a path that is fixed to frame a
 };
-inline constexpr JointKind k_last_joint_kind = JointKind::rack;
+inline constexpr JointKind k_last_joint_kind = JointKind::path;
 [[nodiscard]] std::string_view to_string(JointKind kind);
 
 /// Returns whether one equation of its own takes the place of the kind's six axes.
@@ -98,6 +102,16 @@ inline constexpr int k_max_anchor_ratio = 64;
 /// Angles: [0] is the twist, the turn of B about its x axis; [1] and [2] are the swing, the tilts
 /// of that axis about y and z of frame A. The swing of a ball joint is a cone about x: its half
 /// angle is angular[1].upper, when that is limited.
+///
+/// A ratchet turns up about x, and not back over the last tooth that it passed; a tick in which it
+/// turns by more than a half turn may lose count. angular[0] limits it so, whatever its lower and
+/// upper; free lifts the pawl. The teeth are at whole parts of a turn from frame A; where it
+/// begins, the tooth at or below it holds.
+///
+/// A path joint has its x axis along the path, its z axis up: linear[0] is the distance from the
+/// path's beginning, free or limited, and limited to the whole path by JointDef::of; free, it may
+/// go straight on beyond the ends. linear[1] and [2] stay locked. The angular axes are free, unless
+/// settings have the body follow the path's direction. It begins at the nearest point of the path.
 struct JointDef {
   JointKind kind = JointKind::ball;        ///< fixed for the joint's life
   BodyHandle body_a{};                     ///< must exist
@@ -108,11 +122,13 @@ struct JointDef {
   std::array<AngularAxis, 3> angular{};    ///< twist, tilts about y and z
   Vec3<Position> ground_a{};               ///< pulley: the fixed points
   Vec3<Position> ground_b{};               ///< of body_b's side
-  Number ratio = Number::from_integer(1);  ///< pulley, gear: ±1000; rack: rad of a for each m of b
-  Force break_force{};                     ///< the joint is destroyed beyond it; 0: never
-  Torque break_torque{};                   ///< N·m, as break_force
-  bool collide = false;                    ///< whether the two bodies may touch
-  std::uint64_t user_data = 0;             ///< the game's own; part of the state
+  AssetId path{};                          ///< path joint: its curve, in frame a
+  Number ratio = Number::from_integer(1);  ///< pulley, gear: ±1000; rack: rad of a for each m of b;
+                                           ///< ratchet: teeth in a turn, whole, 2 … 1000
+  Force break_force{};          ///< the joint is destroyed beyond it; 0: never
+  Torque break_torque{};        ///< N·m, as break_force
+  bool collide = false;         ///< whether the two bodies may touch
+  std::uint64_t user_data = 0;  ///< the game's own; part of the state
 
   /// A joint of a kind with its axes locked and free as the kind says, and no drives. Begin with
   /// it: a ball, hinge, slider, weld or wheel whose axes are all free holds nothing and is refused.
@@ -129,7 +145,8 @@ struct JointView {
   BodyHandle body_a{};          ///< as in JointDef
   BodyHandle body_b{};          ///< as in JointDef
   std::uint64_t user_data = 0;  ///< as in JointDef
-  Vec3<Length> offset{};        ///< of frame B against frame A, along the axes of frame A
+  Vec3<Length> offset{};        ///< of frame B against frame A, along the axes of frame A; of a
+                                ///< path joint x is the distance along the path
   Vec3<Angle> angle{};          ///< twist and swing, in (−π, π]
   Vec3<Force> force{};          ///< on body b in the last substep, along the joint's axes
   Vec3<Torque> torque{};        ///< N·m, as `force`

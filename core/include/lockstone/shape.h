@@ -23,6 +23,7 @@ enum class ShapeKind : std::uint8_t {
   cylinder = 8,
   cone = 9,
   tapered_capsule = 10,
+  path = 255,  ///< a curve for joints (asset); no body has it
 };
 inline constexpr ShapeKind k_last_shape_kind = ShapeKind::tapered_capsule;
 [[nodiscard]] std::string_view to_string(ShapeKind kind);

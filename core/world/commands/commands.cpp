@@ -187,6 +187,7 @@ Status CommandExecutor::execute(const Teleport& command) {
   set_recycling_pose(*record);
   begin_rest(*record, world_.sleep_flags.rest_rules());
   world_.refresh(command.body.index);
+  world_.joint_registry.restart_joints_of(command.body.index);
   world_.waking.disturb_around(command.body.index);
   return Status::ok;
 }

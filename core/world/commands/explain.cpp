@@ -12,6 +12,7 @@
 #include "core/math/rotation_log.h"
 #include "core/world/commands/command_checks.h"
 #include "core/world/commands/joint_checks.h"
+#include "core/world/commands/joint_progress.h"
 #include "core/world/commands/refusal_finder.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/phases/fluids.h"
@@ -133,6 +134,11 @@ void check_made_by_of(RefusalFinder& find, const JointDef& def) {
 }
 
 void check_ratio(RefusalFinder& find, const JointDef& def) {
+  if (def.kind == JointKind::ratchet) {
+    find.require(is_teeth(def.ratio), "ratio", RefusalFinder::text(def.ratio, "teeth"),
+                 "a whole number, 2 … 1000");
+    return;
+  }
   const bool positive = def.kind == JointKind::pulley;
   find.within("ratio", def.ratio, positive ? Number::from_raw(1) : Number::from_raw(-k_ratio_limit),
               Number::from_raw(k_ratio_limit));
@@ -209,6 +215,12 @@ void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const Lin
   check_axis_settings(find, name, settings, "m", "N");
   if (kind == JointKind::distance && axis == 0)
     find.at_least(name + "lower", settings.lower, Length{}, "m");
+  if (kind != JointKind::path) return;
+  const bool is_locked = settings.mode == AxisMode::locked;
+  const bool is_driven = settings.hertz > Number{} || settings.max_effort > Force{};
+  find.require(axis == 0 ? !is_locked : is_locked && !is_driven, name + "mode",
+               to_string(settings.mode),
+               axis == 0 ? "free or limited: along the path" : "locked, without a drive: a path");
 }
 
 void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis,
@@ -303,9 +315,11 @@ Refusal World::explain(const JointDef& def) const {
                    joint);
   check_anchor(find, "frame_a.position", *a, def.frame_a, joint.anchor_a);
   check_anchor(find, "frame_b.position", *b, def.frame_b, joint.anchor_b);
-  find.require(!joint.is(JointKind::pulley) || find.done() || set_total_length(*impl_, joint),
+  find.require(!joint.is(JointKind::pulley) || find.done() || begin_joint(*impl_, joint),
                "ground_a", to_decimal(def.ground_a) + " m",
                "where each rope, and both by the ratio, are 1000 m long at most");
+  find.require(!joint.is(JointKind::path) || find.done() || begin_joint(*impl_, joint), "path",
+               hexadecimal(def.path.value), "the id of a path in the AssetSet of the world");
   find.require(joint_count() < impl_->def.joint_capacity, "count", std::to_string(joint_count()),
                "below WorldDef::joint_capacity, " + std::to_string(impl_->def.joint_capacity));
   return find.take();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/world/commands/joint_progress.h"
 #include "core/world/commands/joint_registry.h"
 #include "core/world/state/record_checks.h"
 
@@ -53,6 +54,16 @@ void JointRegistry::move_frames(std::uint32_t body, const Transform& from, const
     if (link.body_a == body) move(joint.anchor_a, joint.orientation_a);
     if (link.body_b == body) move(joint.anchor_b, joint.orientation_b);
     if (link.body_a == body || link.body_b == body) world_.hashes.joints.mark(link.joint);
+  }
+}
+
+void JointRegistry::restart_joints_of(std::uint32_t body) {
+  for (const JointLink& link : world_.joint_graph.links()) {
+    if (link.body_a != body && link.body_b != body) continue;
+    JointRecord& joint = world_.joints[link.joint];
+    if (!joint.is(JointKind::ratchet) && !joint.is(JointKind::path)) continue;
+    (void)begin_joint(world_, joint);
+    world_.hashes.joints.mark(link.joint);
   }
 }
 

@@ -26,6 +26,8 @@ class JointRegistry {
   void destroy_all_of(std::uint32_t body);
   /// Destroys the joints whose load exceeds their limits, by index, and notes an event for each.
   void break_overloaded();
+  /// The teeth of ratchets and places on paths follow the bodies after a step.
+  void advance();
   /// The joints of awake bodies may have changed in a step.
   void mark_awake();
 
@@ -40,6 +42,8 @@ class JointRegistry {
                                const Transform& to) const;
   /// Moves them there.
   void move_frames(std::uint32_t body, const Transform& from, const Transform& to);
+  /// A body is somewhere else: teeth of ratchets and places on paths begin as of new joints.
+  void restart_joints_of(std::uint32_t body);
   /// The impulses of the last tick are none of the body as it is now.
   void forget_impulses_of(std::uint32_t body);
 
@@ -62,9 +66,5 @@ class JointRegistry {
 
 /// A joint as a game sees it, with the forces of the last step.
 [[nodiscard]] JointView view_of(const WorldData& world, const JointRecord& joint);
-
-/// Sets the length of a pulley's rope from where its bodies are; false if it is too long: at most
-/// 1000 m each and together.
-[[nodiscard]] bool set_total_length(const WorldData& world, JointRecord& joint);
 
 }  // namespace lockstone

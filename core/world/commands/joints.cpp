@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/path.h>
+
 #include "core/collision/narrow_phase/placed_shape.h"
 #include "core/dynamics/joint/joint_geometry.h"
 #include "core/dynamics/joint/joint_rows.h"
@@ -12,6 +14,7 @@
 #include "core/math/rotation_log.h"
 #include "core/world/commands/command_executor.h"
 #include "core/world/commands/joint_checks.h"
+#include "core/world/commands/joint_progress.h"
 #include "core/world/commands/joint_registry.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/state/record_checks.h"
@@ -35,17 +38,35 @@ bool is_valid(const JointAxisRecord& axis, std::uint8_t mode, bool is_angle) {
   return axis.lower <= axis.upper && known(axis.lower) && known(axis.upper) && known(axis.target);
 }
 
+// A path joint goes along its path, and across it nowhere.
+bool has_path_axes(const JointRecord& joint) {
+  const auto stays = [&](std::size_t i) {
+    return joint.mode(i) == AxisMode::locked && !joint.axes[i].is_driven();
+  };
+  return joint.mode(0) != AxisMode::locked && stays(1) && stays(2);
+}
+
 bool has_valid_axes(const JointRecord& joint) {
   for (std::size_t i = 0; i < k_joint_axes; ++i) {
     if (!is_valid(joint.axes[i], joint.modes[i], i >= 3)) return false;
   }
   if (joint.is(JointKind::ball) && joint.axes[4].upper < 0) return false;
+  if (joint.is(JointKind::path) && !has_path_axes(joint)) return false;
   return !joint.is(JointKind::distance) || joint.axes[0].lower >= 0;
+}
+
+// The fields that a path joint uses in place of a pulley's points.
+bool has_path_place(const JointRecord& joint) {
+  const Position none;
+  return joint.ground_a.x >= none && joint.ground_a.x <= k_world_limit &&
+         joint.ground_a.y == none && joint.ground_a.z == none && joint.ground_b.y == none &&
+         joint.ground_b.z == none;
 }
 
 bool has_valid_ratio(const JointRecord& joint) {
   const std::int32_t ratio = joint.ratio.raw;
   if (joint.is(JointKind::pulley)) return ratio > 0 && ratio <= k_ratio_limit;
+  if (joint.is(JointKind::ratchet)) return is_teeth(joint.ratio);
   return ratio >= -k_ratio_limit && ratio <= k_ratio_limit;
 }
 
@@ -75,10 +96,6 @@ bool set_frame(const JointFrame& frame, const Asset* asset, Vec3<Length>& anchor
   return true;
 }
 
-Position length_of(const Vec3<Position>& v) {
-  return Position::from_raw(static_cast<std::int64_t>(norm(v.x.raw, v.y.raw, v.z.raw)));
-}
-
 JointRecord make_joint(const JointDef& from) {
   JointRecord joint;
   joint.generation = 1;
@@ -90,35 +107,17 @@ JointRecord make_joint(const JointDef& from) {
     set_axis(joint, i, from.linear[i]);
     set_axis(joint, i + 3, from.angular[i]);
   }
-  joint.ground_a = from.ground_a;
-  joint.ground_b = from.ground_b;
+  if (from.kind == JointKind::path) {
+    joint.ground_b.x.raw = static_cast<std::int64_t>(from.path.value);
+  } else {
+    joint.ground_a = from.ground_a;
+    joint.ground_b = from.ground_b;
+  }
   joint.ratio = from.ratio;
   joint.break_force = from.break_force;
   joint.break_torque = from.break_torque;
   joint.user_data = from.user_data;
   return joint;
-}
-
-// A force or torque as a vector; at the type's limit along all axes it is, rotated, longer than
-// along one.
-template <class T>
-Vec3<Position> as_vector(const Vec3<T>& v) {
-  constexpr std::int64_t k_most = std::int64_t{1} << 61;
-  const auto within = [=](T x) {
-    return Position::from_raw(x.raw > k_most ? k_most : x.raw < -k_most ? -k_most : x.raw);
-  };
-  return {within(v.x), within(v.y), within(v.z)};
-}
-
-// The torque of springs that act together, given by their rows, in the axes of the world.
-Vec3<Position> sum_of_rows(const SpringTurnRows& rows, const Vec3<Position>& efforts) {
-  Vec3<Position> sum;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
-      sum[j].raw += product_rounded(efforts[static_cast<int>(i)].raw,
-                                    rows.axes[i][static_cast<std::size_t>(j)], 30);
-  }
-  return as_vector(sum);
 }
 
 }  // namespace
@@ -140,6 +139,16 @@ JointDef JointDef::of(JointKind kind, BodyHandle a, BodyHandle b) {
       break;
     case JointKind::hinge:
       lock({0, 1, 2, 4, 5});
+      break;
+    case JointKind::ratchet:
+      lock({0, 1, 2, 4, 5});
+      def.angular[0].mode = AxisMode::limited;
+      def.ratio = Number::from_integer(12);
+      break;
+    case JointKind::path:
+      lock({1, 2});
+      def.linear[0].mode = AxisMode::limited;
+      def.linear[0].upper = k_max_path_length;
       break;
     case JointKind::slider:
       lock({1, 2, 3, 4, 5});
@@ -205,9 +214,11 @@ Status validate(const JointRecord& joint) {
     return joint == empty ? Status::ok : Status::malformed;
   }
   const bool known = (joint.flags & ~k_all_joint_flags) == 0 && joint.body_a != joint.body_b;
-  const bool in_range = in_world(joint.ground_a) && in_world(joint.ground_b) &&
-                        joint.break_force >= Force{} && joint.break_torque >= Torque{} &&
-                        joint.break_force.raw <= k_effort_limit &&
+  const bool on_ground = joint.is(JointKind::path)
+                             ? has_path_place(joint)
+                             : in_world(joint.ground_a) && in_world(joint.ground_b);
+  const bool in_range = on_ground && joint.break_force >= Force{} &&
+                        joint.break_torque >= Torque{} && joint.break_force.raw <= k_effort_limit &&
                         joint.break_torque.raw <= k_effort_limit && joint.total_length >= Length{};
   const bool turned = has_unit_norm(joint.orientation_a) && has_unit_norm(joint.orientation_b);
   const bool valid = known && in_range && turned && has_valid_axes(joint) && has_valid_ratio(joint);
@@ -236,8 +247,7 @@ Result<JointHandle> JointRegistry::create(const JointDef& from) {
       !can_join(*a, *b) || !is_anchor(*a, joint.anchor_a) || !is_anchor(*b, joint.anchor_b)) {
     return Status::invalid_argument;
   }
-  if (joint.is(JointKind::pulley) && !set_total_length(world_, joint))
-    return Status::invalid_argument;
+  if (!begin_joint(world_, joint)) return Status::invalid_argument;
   std::uint32_t slot = free_hint_;
   while (slot < world_.header.joint_limit && !is_free(world_.joints[slot]))
     ++slot;
@@ -250,22 +260,6 @@ Result<JointHandle> JointRegistry::create(const JointDef& from) {
   world_.joint_graph.add({slot, joint.body_a, joint.body_b}, world_.exempt_pair(joint));
   waking_.wake_ends(joint);
   return JointHandle{slot, joint.generation};
-}
-
-// At most 1000 m each and together.
-bool set_total_length(const WorldData& world, JointRecord& joint) {
-  const Vec3<Position> end_a = world.bodies[joint.body_a].position +
-                               arm_of(world.cache.rotation(joint.body_a), joint.anchor_a);
-  const Vec3<Position> end_b = world.bodies[joint.body_b].position +
-                               arm_of(world.cache.rotation(joint.body_b), joint.anchor_b);
-  const Position first = length_of(end_a - joint.ground_a);
-  const Position second = length_of(end_b - joint.ground_b);
-  constexpr Position k_most = Position::from_integer(1000);
-  if (first > k_most || second > k_most) return false;
-  const Position total = first + multiply<Position>(second, joint.ratio);
-  if (total > k_most) return false;
-  joint.total_length = rounded<Length>(total);
-  return true;
 }
 
 bool JointRegistry::fits(std::uint32_t body, const BodyRecord& changed) const {
@@ -318,6 +312,14 @@ void JointRegistry::mark_awake() {
     world_.hashes.joints.mark(joint.joint);
 }
 
+// Before joints that give way, whose view tells of it.
+void JointRegistry::advance() {
+  for (const JointLink& link : world_.joint_graph.awake_links()) {
+    JointRecord& joint = world_.joints[link.joint];
+    if (joint.is(JointKind::ratchet) || joint.is(JointKind::path)) advance_joint(world_, joint);
+  }
+}
+
 void JointRegistry::rebuild() {
   free_hint_ = 0;
   world_.joint_graph.rebuild(std::span(world_.joints).first(world_.header.joint_limit),
@@ -342,6 +344,7 @@ Status CommandExecutor::set_axis_of(const SetAxis& command, std::size_t first) {
   if (command.axis > 2) return Status::invalid_argument;
   JointRecord changed = *joint;
   set_axis(changed, first + command.axis, command.settings);
+  keep_progress(world_, *joint, changed);
   if (validate(changed) != Status::ok) return Status::invalid_argument;
   if (*joint == changed) return Status::ok;
   world_.waking.wake_ends(changed);
@@ -355,52 +358,6 @@ Status CommandExecutor::execute(const SetLinearAxis& command) {
 
 Status CommandExecutor::execute(const SetAngularAxis& command) {
   return set_axis_of(command, 3);
-}
-
-JointView view_of(const WorldData& world, const JointRecord& joint) {
-  const BodyRecord& a = world.bodies[joint.body_a];
-  const BodyRecord& b = world.bodies[joint.body_b];
-  const Mat3& turn_a = world.cache.rotation(joint.body_a);
-  const Mat3& turn_b = world.cache.rotation(joint.body_b);
-  const Vec3<Position> gap =
-      (b.position + arm_of(turn_b, joint.anchor_b)) - (a.position + arm_of(turn_a, joint.anchor_a));
-  const Mat3 frame_a = frame_of(turn_a, joint.orientation_a);
-  JointView view{.kind = static_cast<JointKind>(joint.kind),
-                 .body_a = world.handle_of(joint.body_a),
-                 .body_b = world.handle_of(joint.body_b),
-                 .user_data = joint.user_data,
-                 .offset = saturated<Length>(rotate_inverse(frame_a, gap)),
-                 .angle = swing_twist(frame_a, frame_of(turn_b, joint.orientation_b))};
-  if (joint.is(JointKind::distance)) view.offset = {saturated<Length>(length_of(gap)), {}, {}};
-  const BlockFloat inverse_mass = add(a.inverse_mass_value(), b.inverse_mass_value());
-  const int exponent = angular_exponent(a, b);
-  const SpringTurn turn = spring_turn(joint);
-  Vec3<Torque> springs;  // of those that act together, along their rows
-  for (int i = 0; i < 3; ++i) {
-    const std::int32_t rate = world.time_step.substep_rate();
-    const auto effort = [&](std::int64_t impulse, int scale) {
-      return effort_of(impulse, rate, inverse_mass, scale);
-    };
-    const auto axis = static_cast<std::size_t>(i);
-    const JointAxisRecord &linear = joint.axes[axis], &angular = joint.axes[axis + 3];
-    const bool together = acts_together(joint, turn, axis + 3);
-    const std::int64_t alone = together ? 0 : angular.drive_impulse.raw;
-    view.force[i].raw = effort(std::int64_t{linear.impulse.raw} + linear.drive_impulse.raw, 0);
-    view.torque[i].raw = effort(angular.impulse.raw + alone, exponent);
-    if (together) springs[i].raw = effort(angular.drive_impulse.raw, exponent);
-  }
-  if (turn != SpringTurn::apart) {
-    const SpringTurnRows rows = spring_turn_rows(joint, turn, a.orientation, b.orientation);
-    const Vec3<Position> torque = rotate_inverse(frame_a, sum_of_rows(rows, as_vector(springs)));
-    for (int i = 0; i < 3; ++i)
-      view.torque[i].raw += torque[i].raw;
-  }
-  if (has_world_axes(joint)) {
-    const Vec3<Position> along = rotate_inverse(frame_a, as_vector(view.force));
-    view.force = {Force::from_raw(along.x.raw), Force::from_raw(along.y.raw),
-                  Force::from_raw(along.z.raw)};
-  }
-  return view;
 }
 
 Result<JointHandle> World::create_joint(const JointDef& def) {

@@ -26,8 +26,8 @@ std::string_view to_string(CombineRule rule) {
 }
 std::string_view to_string(JointKind kind) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(k_last_joint_kind)> k_names{
-      "distance", "ball",     "hinge",  "slider", "weld", "wheel",
-      "motor",    "six-axis", "pulley", "gear",   "rack"};
+      "distance", "ball",   "hinge", "slider", "weld",    "wheel", "motor",
+      "six-axis", "pulley", "gear",  "rack",   "ratchet", "path"};
   return name_of(k_names, kind, 1);
 }
 std::string_view to_string(WheelCast cast) {

@@ -9,6 +9,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/dynamics/joint/joint_path.h"
 #include "core/world/commands/command_checks.h"
 #include "core/world/state/record_checks.h"
 #include "core/world/state/stores.h"
@@ -68,6 +69,8 @@ WorldFault StateValidator::fault_of_joints() const {
       return {"a joint of no body", i};
     if (validate(joint, world_.bodies[joint.body_a], world_.bodies[joint.body_b]) != Status::ok)
       return {"the fields of a joint", i};
+    if (joint.is(JointKind::path) && curve_of(joint, world_.assets.get()) == nullptr)
+      return {"the path of a joint", i};
   }
   return {};
 }

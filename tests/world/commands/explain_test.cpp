@@ -203,6 +203,7 @@ TEST(JointDef, WithoutItsKindsLocksIsRefused) {
 
 TEST(JointDef, OfAnyKindIsAccepted) {
   for (int i = 1; i <= static_cast<int>(k_last_joint_kind); ++i) {
+    if (i == static_cast<int>(JointKind::path)) continue;  // needs a path: see PathJoints
     Pair pair;
     const auto kind = static_cast<JointKind>(i);
     const JointDef def = JointDef::of(kind, pair.a, pair.b);

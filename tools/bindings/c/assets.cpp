@@ -3,6 +3,7 @@
 
 #include <lockstone/hull.h>
 #include <lockstone/load_asset.h>
+#include <lockstone/path.h>
 
 #include "tools/bindings/c/convert.h"
 #include "tools/bindings/c/handles.h"
@@ -46,6 +47,23 @@ lks_status lks_assets_add_hull(lks_assets* assets, const lks_length3* points, si
     if (!result.ok()) throw invalid("points", to_string(result.fault));
     assets->list.push_back(result.hull);
     *out = result.hull->id().value;
+  });
+}
+
+lks_status lks_assets_add_path(lks_assets* assets, const lks_path_point* points, size_t count,
+                               uint32_t closed, uint64_t* out) {
+  return call([&] {
+    required(assets, "assets");
+    required(out, "out");
+    if (count > k_max_path_points) throw invalid("count", "must be at most 4096");
+    const lks_path_point* raw = array(points, count, "points");
+    std::vector<PathPoint> list(count);
+    for (std::size_t i = 0; i < count; ++i)
+      list[i] = {vec<Length>(raw[i].position), vec<Unit>(raw[i].up)};
+    const PathResult result = Path::build(list, flag(closed, "closed"));
+    if (!result.ok()) throw invalid("points", to_string(result.fault));
+    assets->list.push_back(result.path);
+    *out = result.path->id().value;
   });
 }
 

@@ -82,6 +82,7 @@ JointDef joint_def_of(const lks_joint_def* from) {
   def.break_torque = Torque::from_raw(raw.break_torque);
   def.collide = flag(raw.collide, "joint.collide");
   def.user_data = raw.user_data;
+  def.path.value = raw.path;
   return def;
 }
 

@@ -17,6 +17,8 @@ export const JointKind = {
   pulley: c.LKS_JOINT_PULLEY,
   gear: c.LKS_JOINT_GEAR,
   rack: c.LKS_JOINT_RACK,
+  ratchet: c.LKS_JOINT_RATCHET,
+  path: c.LKS_JOINT_PATH,
 } as const;
 
 export const AxisMode = { locked: c.LKS_AXIS_LOCKED, free: c.LKS_AXIS_FREE, limited: c.LKS_AXIS_LIMITED } as const;
@@ -61,7 +63,7 @@ export interface JointDef {
   /** Pulley: the fixed points. */
   groundA?: Vector;
   groundB?: Vector;
-  /** Pulley, gear, rack. */
+  /** Pulley, gear, rack; ratchet: teeth in a turn, whole, 2 … 1000. */
   ratio?: Quantity;
   /** The two bodies may touch. */
   collide?: boolean;
@@ -70,6 +72,8 @@ export interface JointDef {
   /** N·m. */
   breakTorque?: Quantity;
   userData?: bigint;
+  /** Path joint: its path, from `Assets.addPath`. */
+  path?: bigint;
 }
 
 /** A joint as it stands after the last step. */
@@ -128,6 +132,7 @@ function putDef(heap: Heap, at: number, from: JointDef): void {
   if (from.breakForce !== undefined) heap.put64(at + def.break_force, from.breakForce, c.LKS_FORCE_BITS);
   if (from.breakTorque !== undefined) heap.put64(at + def.break_torque, from.breakTorque, c.LKS_FORCE_BITS);
   if (from.userData !== undefined) heap.i64[(at + def.user_data) >>> 3] = from.userData;
+  if (from.path !== undefined) heap.u64[(at + def.path) >>> 3] = from.path;
 }
 
 /** Names a joint of a world. The name of a destroyed joint never names another one. */

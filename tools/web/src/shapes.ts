@@ -92,6 +92,22 @@ export class Assets {
     return assetShape("hull", asset);
   }
 
+  /**
+   * A path for path joints: a smooth curve through 2 … 4096 points, each with the direction up there (y unless
+   * given); its name.
+   */
+  addPath(points: readonly { position: Vector; up?: Vector }[], closed = false): bigint {
+    const { heap } = this.lockstone;
+    const { $bytes, position, up } = c.lks_path_point;
+    return this.add(points.length * $bytes, (room) => {
+      points.forEach((point, i) => {
+        heap.putVector32(room + i * $bytes + position, point.position, c.LKS_LENGTH_BITS);
+        heap.putVector32(room + i * $bytes + up, point.up ?? [0, 1, 0], c.LKS_UNIT_BITS);
+      });
+      return heap.f.lks_assets_add_path(this.address, room, points.length, closed ? 1 : 0, heap.output);
+    });
+  }
+
   /** An asset of any kind from its bytes, as `lockstone asset build` writes them; its name, for `assetShape`. */
   addBytes(bytes: Uint8Array): bigint {
     const { heap } = this.lockstone;

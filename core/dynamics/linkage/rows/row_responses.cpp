@@ -40,7 +40,8 @@ JointPlace place_of(const JointSystem& system, const LinkedJoint& joint, const J
           joint.exponent,
           joint.far,
           joint.holds_a_point,
-          joint.turns_locks};
+          joint.turns_locks,
+          joint.curve};
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/asset.h>
+
 #include "core/dynamics/linkage/system/linked_body.h"
 #include "core/dynamics/linkage/system/linked_joint.h"
 #include "core/dynamics/problem/proximal_locks.h"
@@ -112,7 +114,8 @@ struct JointSystem {
   [[nodiscard]] bool is_stiff(const JointGroup& group) const;
 
   TimeStep step;
-  std::vector<LinkedBody> bodies;  // in the order in which joints first name them
+  const AssetSet* assets = nullptr;  // of the tick: it has the paths of joints
+  std::vector<LinkedBody> bodies;    // in the order in which joints first name them
   std::vector<AddedJoint> added;
   std::vector<LinkedJoint> joints;          // cluster by cluster
   std::vector<std::uint32_t> by_body;       // in `added`: joints of each pushed body

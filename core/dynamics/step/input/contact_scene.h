@@ -5,6 +5,7 @@
 #include <span>
 
 #include <lockstone/assert.h>
+#include <lockstone/asset.h>
 
 #include "core/dynamics/contact/contact_index.h"
 #include "core/dynamics/state/body_record.h"
@@ -32,6 +33,7 @@ struct ContactScene {
   std::span<const ContactRecord> records;
   std::span<const JointRecord> joints;
   std::span<const JointLink> joint_links;
+  const AssetSet* assets = nullptr;  // that has the paths of joints; may be null without any
   Vec3<Acceleration> gravity;
   std::uint64_t tick = 0;
   std::span<const WatchedContact> watched{};  // by record

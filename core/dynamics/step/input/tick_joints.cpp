@@ -21,7 +21,7 @@ TickJoints::TickJoints(const TimeStep& step, std::size_t body_capacity,
 void TickJoints::gather(const ContactScene& scene) {
   first_without_contacts_ = bodies_.count();
   if (scene.joint_links.empty() && solver_->empty()) return;
-  solver_->clear();
+  solver_->clear(scene.assets);
   for (const JointLink& link : scene.joint_links) {
     LKS_ASSERT(link.joint < scene.joints.size());
     LKS_ASSERT(link.body_a < scene.bodies.size() && link.body_b < scene.bodies.size());

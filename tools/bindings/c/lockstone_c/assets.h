@@ -83,6 +83,18 @@ LKS_API void lks_assets_destroy(lks_assets* assets);
 LKS_API lks_status lks_assets_add_hull(lks_assets* assets, const lks_length3* points, size_t count,
                                        int32_t max_vertices, uint64_t* out);
 
+/* A point that a path goes through, within ±512 m, and which way is up there. */
+typedef struct lks_path_point {
+  lks_length3 position;
+  lks_unit3 up; /* any length but 0, not along the path */
+} lks_path_point;
+
+/* Adds a path for path joints: a smooth curve through 2 … 4096 points, 3 or more of a closed one,
+ * each 1/32 … 128 m from the next one; `out` is its name. LKS_INVALID_ARGUMENT says why there is no
+ * such path. */
+LKS_API lks_status lks_assets_add_path(lks_assets* assets, const lks_path_point* points,
+                                       size_t count, uint32_t closed, uint64_t* out);
+
 /* Adds an asset of any kind from its canonical bytes, as `lockstone asset build` writes them. They
  * may come from anywhere. A compound's hulls must be in the set: else LKS_NOT_FOUND. */
 LKS_API lks_status lks_assets_add_bytes(lks_assets* assets, const void* bytes, size_t count,

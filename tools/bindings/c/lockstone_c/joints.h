@@ -22,7 +22,9 @@ enum {
   LKS_JOINT_SIX_AXIS = 8,
   LKS_JOINT_PULLEY = 9,
   LKS_JOINT_GEAR = 10,
-  LKS_JOINT_RACK = 11
+  LKS_JOINT_RACK = 11,
+  LKS_JOINT_RATCHET = 12,
+  LKS_JOINT_PATH = 13
 };
 
 enum { LKS_AXIS_LOCKED = 0, LKS_AXIS_FREE = 1, LKS_AXIS_LIMITED = 2 };
@@ -61,11 +63,12 @@ typedef struct lks_joint_def {
   lks_axis angular[3];
   lks_position3 ground_a; /* pulley: the fixed points */
   lks_position3 ground_b;
-  lks_number ratio;      /* pulley, gear, rack */
+  lks_number ratio;      /* pulley, gear, rack; ratchet: teeth in a turn, whole, 2 … 1000 */
   uint32_t collide;      /* 1: the two bodies may touch */
   lks_force break_force; /* the joint is destroyed beyond it; 0: never */
   lks_force break_torque;
   uint64_t user_data;
+  uint64_t path; /* path joint: the name of its path, in frame a */
 } lks_joint_def;
 
 /* Locks and frees the axes as the kind says. */
@@ -79,7 +82,8 @@ typedef struct lks_joint_view {
   lks_body body_a;
   lks_body body_b;
   uint64_t user_data;
-  lks_length3 offset; /* of frame B against frame A, along the axes of A */
+  lks_length3 offset; /* of frame B against frame A, along the axes of A; of a path joint x is the
+                       * distance along the path */
   lks_angle3 angle;   /* twist and swing */
   lks_force3 force;   /* on body b in the last substep, along the joint's axes */
   lks_force3 torque;

@@ -14,7 +14,7 @@ from .sessions import Client, Network, Server, SessionEvent, Transport, now_us, 
 from .shapes import Assets, box, capsule, cone, cylinder, half_space, sphere, tapered_capsule
 from .units import Raw
 from .world import (ALLOW_SLEEP, BALL, BULLET, CONTACT_BEGIN, CONTACT_END, DISTANCE, DYNAMIC, FIXED_ROTATION, GEAR,
-                    HINGE, IMPACT, KINEMATIC, MOTOR, PULLEY, RACK, SIX_AXIS, SLEEP, SLIDER, STATIC, TRIGGER,
+                    HINGE, IMPACT, KINEMATIC, MOTOR, PATH, PULLEY, RACK, RATCHET, SIX_AXIS, SLEEP, SLIDER, STATIC, TRIGGER,
                     TRIGGER_ENTER, TRIGGER_EXIT, TRIGGER_STAY, WAKE, WELD, WHEEL, Body, Contact, Impact, Poses,
                     RayHit, World)
 

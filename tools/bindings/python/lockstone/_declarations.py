@@ -92,6 +92,8 @@ LKS_JOINT_SIX_AXIS = 8
 LKS_JOINT_PULLEY = 9
 LKS_JOINT_GEAR = 10
 LKS_JOINT_RACK = 11
+LKS_JOINT_RATCHET = 12
+LKS_JOINT_PATH = 13
 LKS_AXIS_LOCKED = 0
 LKS_AXIS_FREE = 1
 LKS_AXIS_LIMITED = 2
@@ -202,6 +204,13 @@ class lks_shape(Structure):
         ("kind", c_uint32),
         ("size", lks_i32x3),
         ("asset", c_uint64),
+    ]
+
+
+class lks_path_point(Structure):
+    _fields_ = [
+        ("position", lks_i32x3),
+        ("up", lks_i32x3),
     ]
 
 
@@ -479,6 +488,7 @@ class lks_joint_def(Structure):
         ("break_force", c_int64),
         ("break_torque", c_int64),
         ("user_data", c_uint64),
+        ("path", c_uint64),
     ]
 
 
@@ -997,6 +1007,7 @@ FUNCTIONS = {
     "lks_assets_create": [c_int32, POINTER(c_void_p)],
     "lks_assets_destroy": [None, c_void_p],
     "lks_assets_add_hull": [c_int32, c_void_p, POINTER(lks_i32x3), c_size_t, c_int32, POINTER(c_uint64)],
+    "lks_assets_add_path": [c_int32, c_void_p, POINTER(lks_path_point), c_size_t, c_uint32, POINTER(c_uint64)],
     "lks_assets_add_bytes": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_uint64)],
     "lks_status_name": [c_char_p, c_int32],
     "lks_last_error": [c_char_p],

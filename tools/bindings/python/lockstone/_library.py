@@ -18,6 +18,10 @@ class I32x3(ctypes.Structure):
     _fields_ = [("x", c_int32), ("y", c_int32), ("z", c_int32)]
 
 
+class PathPoint(ctypes.Structure):
+    _fields_ = [("position", I32x3), ("up", I32x3)]
+
+
 class Quat(ctypes.Structure):
     _fields_ = [("x", c_int32), ("y", c_int32), ("z", c_int32), ("w", c_int32)]
 
@@ -98,7 +102,7 @@ class JointDef(ctypes.Structure):
     _fields_ = [("size", c_uint32), ("kind", c_uint32), ("body_a", c_uint64), ("body_b", c_uint64),
                 ("frame_a", JointFrame), ("frame_b", JointFrame), ("linear", Axis * 3), ("angular", Axis * 3),
                 ("ground_a", I64x3), ("ground_b", I64x3), ("ratio", c_int32), ("collide", c_uint32),
-                ("break_force", c_int64), ("break_torque", c_int64), ("user_data", c_uint64)]
+                ("break_force", c_int64), ("break_torque", c_int64), ("user_data", c_uint64), ("path", c_uint64)]
 
 
 class Event(ctypes.Structure):
@@ -140,6 +144,7 @@ _CALLS = {
     "lks_describe_difference": [_WORLD, c_char_p, c_size_t, c_char_p, c_size_t, _FLAG, c_void_p, c_size_t],
     "lks_assets_create": [POINTER(c_void_p)],
     "lks_assets_add_hull": [c_void_p, POINTER(I32x3), c_size_t, c_int32, _NUMBER],
+    "lks_assets_add_path": [c_void_p, c_void_p, c_size_t, c_uint32, _NUMBER],
     "lks_assets_add_bytes": [c_void_p, c_char_p, c_size_t, _NUMBER],
     "lks_world_keep_history": [_WORLD, c_uint32],
     "lks_world_forget_history": [_WORLD],

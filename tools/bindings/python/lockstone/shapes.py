@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Iterable
+from typing import Iterable, Tuple
 
 from . import units
-from ._library import I32x3, Shape, lib
+from ._library import I32x3, PathPoint, Shape, lib
 from .units import Quantity, Vector
 
 
@@ -70,3 +70,12 @@ class Assets:
         lib.lks_assets_add_hull(self.handle, (I32x3 * len(raw))(*raw), len(raw), max_vertices,
                                 ctypes.byref(asset))
         return Shape(3, I32x3(0, 0, 0), asset.value)
+
+    def add_path(self, points: Iterable[Tuple[Vector, Vector]], closed: bool = False) -> int:
+        """A smooth curve through 2 … 4096 points, each with the direction up there; its name, for path joints."""
+        raw = [PathPoint(lengths(point), I32x3(*(units.raw(part, units.UNIT, 32) for part in up)))
+               for point, up in points]
+        asset = ctypes.c_uint64()
+        lib.lks_assets_add_path(self.handle, (PathPoint * len(raw))(*raw), len(raw), int(closed),
+                                ctypes.byref(asset))
+        return asset.value

@@ -13,6 +13,13 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_path_point
+    {
+        public lks_i32x3 position;
+        public lks_i32x3 up;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_surface
     {
         public int friction;
@@ -277,6 +284,7 @@ namespace Lockstone.Interop
         public long break_force;
         public long break_torque;
         public ulong user_data;
+        public ulong path;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1024,6 +1032,8 @@ namespace Lockstone.Interop
         public const uint LKS_JOINT_PULLEY = 9;
         public const uint LKS_JOINT_GEAR = 10;
         public const uint LKS_JOINT_RACK = 11;
+        public const uint LKS_JOINT_RATCHET = 12;
+        public const uint LKS_JOINT_PATH = 13;
         public const uint LKS_AXIS_LOCKED = 0;
         public const uint LKS_AXIS_FREE = 1;
         public const uint LKS_AXIS_LIMITED = 2;
@@ -1122,6 +1132,9 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_hull(IntPtr assets, lks_i32x3* points, UIntPtr count, int max_vertices, ulong* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_assets_add_path(IntPtr assets, lks_path_point* points, UIntPtr count, uint closed, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_bytes(IntPtr assets, void* bytes, UIntPtr count, ulong* @out);

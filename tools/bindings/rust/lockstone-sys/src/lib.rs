@@ -127,6 +127,8 @@ pub const LKS_JOINT_SIX_AXIS: u32 = 8;
 pub const LKS_JOINT_PULLEY: u32 = 9;
 pub const LKS_JOINT_GEAR: u32 = 10;
 pub const LKS_JOINT_RACK: u32 = 11;
+pub const LKS_JOINT_RATCHET: u32 = 12;
+pub const LKS_JOINT_PATH: u32 = 13;
 pub const LKS_AXIS_LOCKED: u32 = 0;
 pub const LKS_AXIS_FREE: u32 = 1;
 pub const LKS_AXIS_LIMITED: u32 = 2;
@@ -270,6 +272,12 @@ pub struct lks_shape {
     pub kind: u32,
     pub size: lks_length3,
     pub asset: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_path_point {
+    pub position: lks_length3,
+    pub up: lks_unit3,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -512,6 +520,7 @@ pub struct lks_joint_def {
     pub break_force: lks_force,
     pub break_torque: lks_force,
     pub user_data: u64,
+    pub path: u64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1013,6 +1022,7 @@ extern "C" {
     pub fn lks_assets_create(out: *mut *mut lks_assets) -> lks_status;
     pub fn lks_assets_destroy(assets: *mut lks_assets);
     pub fn lks_assets_add_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, out: *mut u64) -> lks_status;
+    pub fn lks_assets_add_path(assets: *mut lks_assets, points: *const lks_path_point, count: usize, closed: u32, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_bytes(assets: *mut lks_assets, bytes: *const c_void, count: usize, out: *mut u64) -> lks_status;
     pub fn lks_status_name(status: lks_status) -> *const c_char;
     pub fn lks_last_error() -> *const c_char;

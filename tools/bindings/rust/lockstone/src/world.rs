@@ -103,6 +103,12 @@ impl Assets {
         check(unsafe { sys::lks_assets_add_hull(self.0, points.as_ptr(), points.len(), max_vertices, &mut name) })?;
         Ok(name)
     }
+    /// Adds a path for path joints: a smooth curve through the points; returns its name.
+    pub fn add_path(&mut self, points: &[sys::lks_path_point], closed: bool) -> Result<u64> {
+        let mut name = 0;
+        check(unsafe { sys::lks_assets_add_path(self.0, points.as_ptr(), points.len(), closed.into(), &mut name) })?;
+        Ok(name)
+    }
     /// Adds an asset from its canonical bytes.
     pub fn add_bytes(&mut self, bytes: &[u8]) -> Result<u64> {
         let mut name = 0;

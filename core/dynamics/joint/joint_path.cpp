@@ -1,0 +1,28 @@
+#include "core/dynamics/joint/joint_path.h"
+
+#include <lockstone/assert.h>
+#include <lockstone/transform.h>
+
+namespace lockstone {
+
+const geometry::Curve* curve_of(const JointRecord& joint, const AssetSet* assets) {
+  if (!joint.is(JointKind::path) || assets == nullptr) return nullptr;
+  const Asset* asset = assets->find(path_of(joint));
+  return asset == nullptr ? nullptr : asset->curve();
+}
+
+PathFrame path_frame(const geometry::Curve& curve, const Mat3& frame_a, const Vec3<Position>& gap,
+                     Position parameter) {
+  const Vec3<Position> local = rotate_inverse(frame_a, gap);
+  const geometry::CurvePlace place = curve.nearest(local, parameter);
+  LKS_ASSERT(place.parameter >= Position{});
+  const auto raw = [](std::int64_t x) { return Position::from_raw(x); };
+  const auto& [x, y, z] = place.turning;
+  const Vec3<Position> turning = rotate(frame_a, {raw(x), raw(y), raw(z)});
+  return {multiply(frame_a, place.frame),
+          rotate(frame_a, local - place.point),
+          place.distance,
+          {turning.x.raw, turning.y.raw, turning.z.raw}};
+}
+
+}  // namespace lockstone

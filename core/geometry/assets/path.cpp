@@ -1,0 +1,157 @@
+// Canonical bytes: asset head · u8 closed · u32 points · per point: 3 × i32 position, 3 × i32 up.
+
+#include <lockstone/path.h>
+
+#include "core/geometry/assets/asset_frame.h"
+#include "core/geometry/assets/spline_curve.h"
+#include "core/geometry/convex/parts.h"
+#include "core/math/roots.h"
+#include "core/math/rotation_log.h"
+
+namespace lockstone {
+namespace {
+
+constexpr std::uint16_t k_path_version = 1;
+constexpr std::size_t k_path_point_bytes = 24;
+
+PathFault fault_of_point(std::span<const PathPoint> points, std::size_t i, bool closed) {
+  const PathPoint& point = points[i];
+  if (!geometry::is_asset_coordinate(point.position)) return PathFault::coordinate_out_of_range;
+  if (point.up == Vec3<Unit>{}) return PathFault::no_direction_up;
+  if (i + 1 == points.size() && !closed) return PathFault::none;
+  const Vec3<Length>& next = points[(i + 1) % points.size()].position;
+  const auto way = [&](int axis) {
+    return std::int64_t{next[axis].raw} - point.position[axis].raw;
+  };
+  const std::uint64_t chord = norm(way(0), way(1), way(2));
+  const bool fits = chord >= static_cast<std::uint64_t>(k_min_path_chord.raw) &&
+                    chord <= static_cast<std::uint64_t>(k_max_path_chord.raw);
+  return fits ? PathFault::none : PathFault::chord_out_of_range;
+}
+
+PathResult refused(PathFault fault, std::size_t point = 0) {
+  return {nullptr, fault, static_cast<std::uint32_t>(point)};
+}
+
+std::vector<std::byte> encode(std::span<const PathPoint> points, bool closed) {
+  std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 5 +
+                               points.size() * k_path_point_bytes);
+  ByteWriter writer(bytes);
+  geometry::put_asset_header(writer, ShapeKind::path, k_path_version);
+  writer.put(static_cast<std::uint8_t>(closed));
+  writer.put(static_cast<std::uint32_t>(points.size()));
+  for (const PathPoint& point : points) {
+    geometry::put_vector(writer, point.position);
+    for (const Unit part : {point.up.x, point.up.y, point.up.z})
+      writer.put(part.raw);
+  }
+  LKS_CHECK(writer.ok() && writer.size() == bytes.size());
+  return bytes;
+}
+
+}  // namespace
+
+std::string_view to_string(PathFault fault) {
+  switch (fault) {
+    case PathFault::none:
+      return "none";
+    case PathFault::too_few_points:
+      return "too few points";
+    case PathFault::too_many_points:
+      return "too many points";
+    case PathFault::coordinate_out_of_range:
+      return "a point is too far from the origin";
+    case PathFault::chord_out_of_range:
+      return "two points are too near or too far apart";
+    case PathFault::no_direction_up:
+      return "a direction up is zero or goes along the path";
+    case PathFault::too_sharp:
+      return "the path turns back too sharply";
+    case PathFault::too_long:
+      return "the path is too long";
+  }
+  return "unknown";
+}
+
+struct Path::Data {
+  std::vector<PathPoint> points;
+  geometry::SplineCurve curve;
+  geometry::LocalBounds bounds;
+};
+
+Path::Path(AssetId id, std::unique_ptr<const Data> data)
+    : Asset(ShapeKind::path, id), data_(std::move(data)) {}
+Path::~Path() = default;
+
+PathResult Path::build(std::span<const PathPoint> points, bool closed) {
+  if (points.size() < (closed ? 3U : 2U)) return refused(PathFault::too_few_points);
+  if (points.size() > k_max_path_points) return refused(PathFault::too_many_points);
+  geometry::LocalBounds bounds{points[0].position, points[0].position};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (const PathFault fault = fault_of_point(points, i, closed); fault != PathFault::none)
+      return refused(fault, i);
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds.lower[axis] = min(bounds.lower[axis], points[i].position[axis]);
+      bounds.upper[axis] = max(bounds.upper[axis], points[i].position[axis]);
+    }
+  }
+  auto data = std::make_unique<Data>(
+      Data{{points.begin(), points.end()}, geometry::SplineCurve(points, closed), bounds});
+  std::uint32_t point = 0;
+  if (const PathFault fault = data->curve.fault(point); fault != PathFault::none)
+    return refused(fault, point);
+  const AssetId id = geometry::id_of(encode(points, closed));
+  return {std::shared_ptr<const Path>(new Path(id, std::move(data)))};
+}
+
+Result<std::shared_ptr<const Path>> Path::from_bytes(ByteView bytes) {
+  ByteReader reader(bytes);
+  const Status head = geometry::read_asset_header(reader, ShapeKind::path, k_path_version);
+  if (head != Status::ok) return head;
+  const auto closed = reader.get<std::uint8_t>();
+  const auto count = reader.get<std::uint32_t>();
+  if (!reader.ok()) return Status::truncated;
+  if (closed > 1 || count > k_max_path_points) return Status::malformed;
+  if (reader.remaining() < count * k_path_point_bytes) return Status::truncated;
+  if (reader.remaining() > count * k_path_point_bytes) return Status::malformed;
+  std::vector<PathPoint> points(count);
+  for (PathPoint& point : points) {
+    point.position = geometry::get_vector(reader);
+    for (Unit* part : {&point.up.x, &point.up.y, &point.up.z})
+      part->raw = reader.get<std::int32_t>();
+  }
+  const PathResult built = build(points, closed != 0);
+  if (!built.ok()) return Status::malformed;
+  return built.path;
+}
+
+std::span<const PathPoint> Path::points() const {
+  return data_->points;
+}
+bool Path::is_closed() const {
+  return data_->curve.is_closed();
+}
+Length Path::length() const {
+  return rounded<Length>(data_->curve.length());
+}
+Transform Path::at(Length distance) const {
+  const geometry::CurvePlace place = data_->curve.at(distance);
+  return {place.point, orientation_of(place.frame)};
+}
+std::vector<std::byte> Path::canonical_bytes() const {
+  return encode(data_->points, is_closed());
+}
+const geometry::LocalBounds& Path::bounds() const {
+  return data_->bounds;
+}
+const geometry::Curve* Path::curve() const {
+  return &data_->curve;
+}
+
+// It has no parts that anything could meet.
+void Path::visit_parts(const geometry::LocalBounds&, geometry::PartVisitor&) const {}
+void Path::visit_parts_on_way(const Vec3<Length>&, const Vec3<Length>&, const Vec3<Length>&,
+                              geometry::WayPartVisitor&) const {}
+void Path::visit_parts_near(const Vec3<Length>&, Length, geometry::NearPartVisitor&) const {}
+
+}  // namespace lockstone
