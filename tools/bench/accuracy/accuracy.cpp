@@ -46,6 +46,10 @@ constexpr auto k_rows = std::to_array<AccuracyRow>({
     {37, "elastic spheres without gravity", 1, measure_elastic_cloud},
     {38, "the same scene far away", 1, measure_far_away},
     {39, "bodies that rest in one way only", 1, measure_monostable},
+    {40, "car of 1500 kg", 1, measure_vehicle},
+    {41, "figures driven by poses", 1, measure_figures},
+    {42, "ball of 10 kg on a drag", 1, measure_drags},
+    {43, "bead on a circle; ratchet", 1, measure_paths},
     {101, "baseline: three Euler methods, 10 min", 1, measure_integrators},
     {102, "baseline: stack of 20 on springs", 1, measure_penalty},
 });

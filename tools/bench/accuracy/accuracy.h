@@ -83,6 +83,10 @@ struct AccuracyRow {
 [[nodiscard]] std::vector<AccuracyResult> measure_overhang(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_elastic_cloud(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_far_away(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_vehicle(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_figures(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_drags(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_paths(const AccuracyOptions& options);
 
 // Results of other methods; tools/bench/baselines.
 [[nodiscard]] std::vector<AccuracyResult> measure_integrators(const AccuracyOptions& options);
