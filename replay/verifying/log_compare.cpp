@@ -40,7 +40,15 @@ std::optional<CommandDifference> compare_commands(std::uint64_t tick,
                                                         other.bytes.begin(), other.bytes.end());
                                     });
   if (a == here.end() && b == there.end()) return std::nullopt;
-  return CommandDifference{tick, static_cast<std::size_t>(a - here.begin())};
+  CommandDifference difference{tick, static_cast<std::size_t>(a - here.begin())};
+  if (a != here.end()) difference.here = {a->slot, a->bytes.size()};
+  if (b != there.end()) difference.there = {b->slot, b->bytes.size()};
+  if (difference.here && difference.there) {
+    const auto at =
+        std::mismatch(a->bytes.begin(), a->bytes.end(), b->bytes.begin(), b->bytes.end()).first;
+    difference.byte = static_cast<std::size_t>(at - a->bytes.begin());
+  }
+  return difference;
 }
 
 void compare_ticks(const TickReader& here, const TickReader& there, LogComparison& result) {

@@ -235,6 +235,20 @@ TEST_F(CommandsThroughC, AVehicleGivesTheSameState) {
   EXPECT_EQ(lks_vehicle_get(twin_, box, &view), LKS_INVALID_ARGUMENT);
 }
 
+TEST_F(CommandsThroughC, GroupsOfMeshesAreSwitchedAlike) {
+  const BodyHandle panels = add(MotionType::static_body, {ShapeKind::mesh, {}, panels_}, 20, 0);
+  const lks_body raw = c::id_of(panels);
+  for (const std::uint32_t group : {0U, 1U, 2U})
+    expect_same(world_->apply(SetMeshGroup{panels, group, group == 1}),
+                lks_set_mesh_group(twin_, raw, group, group == 1), "group");
+  std::uint32_t is_on = 1;
+  ASSERT_EQ(lks_mesh_group_get(twin_, raw, 0, &is_on), LKS_OK);
+  EXPECT_EQ(is_on, 0U);
+  EXPECT_EQ(lks_mesh_group_get(twin_, raw, 2, &is_on), LKS_INVALID_ARGUMENT);
+  EXPECT_EQ(lks_set_mesh_group(twin_, c::id_of(box_), 0, 0), LKS_NOT_FOUND);
+  EXPECT_EQ(lks_set_mesh_group(twin_, raw, 0, 2), LKS_INVALID_ARGUMENT);
+}
+
 TEST_F(CommandsThroughC, TerrainGivesTheSameState) {
   const BodyHandle ground =
       add(MotionType::static_body, {ShapeKind::height_field, {}, field_}, 20, 0);

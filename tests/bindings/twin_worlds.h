@@ -53,8 +53,13 @@ class TwinWorlds : public ::testing::Test {
     path_ = path->id();
     EXPECT_EQ(lks_assets_add_path(assets_, raw_bend.data(), raw_bend.size(), 0, &id), LKS_OK);
     EXPECT_EQ(id, path_.value);
+    const AssetPtr panels = test::sample_panels();
+    panels_ = panels->id();
+    const std::vector<std::byte> panel_bytes = panels->canonical_bytes();
+    EXPECT_EQ(lks_assets_add_bytes(assets_, panel_bytes.data(), panel_bytes.size(), &id), LKS_OK);
     world_.emplace(
-        World::create(def_, std::make_shared<AssetSet>(std::vector{hull, field, path})).value());
+        World::create(def_, std::make_shared<AssetSet>(std::vector{hull, field, path, panels}))
+            .value());
     make_twin();
   }
 
@@ -110,6 +115,7 @@ class TwinWorlds : public ::testing::Test {
   AssetId hull_;
   AssetId field_;
   AssetId path_;
+  AssetId panels_;
   std::optional<World> world_;
   lks_world* twin_ = nullptr;
   lks_assets* assets_ = nullptr;

@@ -51,6 +51,12 @@ TEST(CommandLog, DivergesWithoutItsCommands) {
   const LogComparison comparison = compare_logs(a, b);
   ASSERT_TRUE(comparison.command && comparison.hash);
   EXPECT_EQ(comparison.command->tick, 0U);
+  ASSERT_TRUE(comparison.command->here && !comparison.command->there);
+  const ToyMatch again = talkative();
+  ToyCommands commands(again);
+  const PlayerCommand first = commands.at(0)[0];
+  EXPECT_EQ(comparison.command->here->slot, first.slot);
+  EXPECT_EQ(comparison.command->here->size, first.bytes.size());
   EXPECT_EQ(comparison.hash->tick, 0U);
   EXPECT_FALSE(comparison.input);
   EXPECT_EQ(comparison.first_difference(), 0U);

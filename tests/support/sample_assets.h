@@ -50,6 +50,23 @@ inline AssetPtr sample_height_field() {
   return HeightField::build(def).height_field;
 }
 
+/// Two panels of 1 m in the plane y = 0, side by side along x: groups 0 and 1.
+inline AssetPtr sample_panels() {
+  constexpr std::array<Vec3<Length>, 6> vertices{{{0_m, 0_m, 0_m},
+                                                  {0_m, 0_m, 1_m},
+                                                  {1_m, 0_m, 0_m},
+                                                  {1_m, 0_m, 1_m},
+                                                  {2_m, 0_m, 0_m},
+                                                  {2_m, 0_m, 1_m}}};
+  constexpr std::array<TriangleIndices, 4> triangles{{{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}}};
+  constexpr std::array<std::uint16_t, 4> groups{0, 0, 1, 1};
+  MeshDef def;
+  def.vertices = vertices;
+  def.triangles = triangles;
+  def.triangle_groups = groups;
+  return Mesh::build(def).mesh;
+}
+
 inline AssetPtr sample_compound() {
   std::array<CompoundChild, 2> children;
   children[0].shape = Shape::box(1_m, 1_m, 0.5_m);

@@ -264,6 +264,9 @@ void CommandDice::fill(SetHeights& c) {
   if (goes_wild()) c.columns = static_cast<std::uint32_t>(random_.below(4));
   c.heights = std::span(k_heights).subspan(random_.below(2), 1);
 }
+void CommandDice::fill(SetMeshGroup& c) {
+  c = {body(), static_cast<std::uint32_t>(random_.below(8)), chance(2)};
+}
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
 }

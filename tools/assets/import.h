@@ -20,6 +20,7 @@ struct ObjImport {
   ObjOptions reading;
   int max_vertices = 64;    ///< of a hull, 4 … 128
   Length weld_tolerance{};  ///< of a mesh
+  bool groups = false;      ///< of a mesh: an object (a group, without objects) is a group
   /// The surface of a mesh's faces of a material, or of a compound's hull of that material alone.
   /// Faces of other materials have the body's own surface.
   std::vector<std::pair<std::string, Surface>> surfaces;

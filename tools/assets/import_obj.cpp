@@ -47,9 +47,12 @@ ImportOutcome build_mesh(const ObjModel& model, const ObjImport& options,
   if (model.triangles.empty()) return fault_at(0, "no faces");
   std::vector<TriangleIndices> triangles;
   std::vector<std::uint8_t> triangle_surfaces;
+  std::vector<std::uint16_t> groups;
   for (const ObjTriangle& t : model.triangles) {
     triangles.push_back(t.corners);
     if (!options.surfaces.empty()) triangle_surfaces.push_back(surface_of[t.material]);
+    const std::uint32_t group = model.objects.size() > 1 ? t.object : t.group;
+    if (options.groups) groups.push_back(static_cast<std::uint16_t>(std::min(group, 0xffffU)));
   }
   std::vector<Surface> surfaces;
   for (const auto& [name, surface] : options.surfaces)
@@ -60,6 +63,7 @@ ImportOutcome build_mesh(const ObjModel& model, const ObjImport& options,
   def.triangle_surfaces = triangle_surfaces;
   def.surfaces = surfaces;
   def.weld_tolerance = options.weld_tolerance;
+  def.triangle_groups = groups;
   const MeshResult built = Mesh::build(def);
   if (!built.ok()) return fault_at(line_of(built, model), to_string(built.fault));
   out.asset = built.mesh;

@@ -8,6 +8,11 @@
 #include "tools/scenes/assets.h"
 
 namespace lockstone::fuzz {
+namespace {
+
+constexpr std::uint32_t k_panels = 5;
+
+}  // namespace
 
 using arena::mix;
 using arena::Random;
@@ -187,7 +192,33 @@ void drive_tracks(World& world, std::uint64_t seed) {
   (void)world.apply(SetLinearAxis{any_joint(world, random), 0, along});
 }
 
+// A floor of panels of which some are off, in a third of all scenes. Draws its numbers apart.
+void drive_panels(World& world, std::uint64_t seed) {
+  Random gate(mix(seed ^ 0x70616e65));
+  if (!chance(gate, 3)) return;
+  Random random(mix(~seed ^ mix(world.tick() + 17)));
+  const Shape shape = scenes::panels(k_panels, k_panels, 2000)->shape();
+  if (world.tick() == 0) {
+    BodyDef floor;
+    floor.motion = static_cast<MotionType>(1 + random.below(2));
+    floor.shape = shape;
+    floor.position.y = scenes::millimetres(random.between(-2000, 1000));
+    (void)world.create_body(floor);
+  }
+  if (!chance(random, 3)) return;
+  for (std::uint32_t i = 0; i < world.body_limit(); ++i) {
+    const BodyHandle body = world.body_at(i);
+    if (body.is_null() || world.body(body).shape.asset != shape.asset) continue;
+    const std::uint32_t group = random.below(k_panels * k_panels + 1);
+    (void)world.apply(SetMeshGroup{body, group, chance(random, 2)});
+  }
+}
+
 }  // namespace
+
+AssetPtr random_panels() {
+  return scenes::panels(k_panels, k_panels, 2000);
+}
 
 AssetPtr random_path(std::uint64_t seed) {
   Random random(mix(seed ^ 0x70617468));
@@ -212,6 +243,7 @@ void drive_features(World& world, std::uint64_t seed) {
   drive_vehicles(world, seed);
   drive_turning_locks(world, seed);
   drive_tracks(world, seed);
+  drive_panels(world, seed);
   drive_terrain(world, seed);
 }
 

@@ -38,8 +38,11 @@ void drive_events(World& world, std::uint64_t seed);
 /// The path of a scene of this seed, drawn apart.
 [[nodiscard]] AssetPtr random_path(std::uint64_t seed);
 
-/// Changes of bodies, fluids, rules, vehicles, locks of joints, ratchets, path joints and terrain,
-/// now and then, and of events as above. The world may refuse some.
+/// The floor of panels that some scenes have.
+[[nodiscard]] AssetPtr random_panels();
+
+/// Changes of bodies, fluids, rules, vehicles, locks of joints, ratchets, path joints, terrain and
+/// groups of meshes, now and then, and of events as above. The world may refuse some.
 void drive_features(World& world, std::uint64_t seed);
 
 }  // namespace lockstone::fuzz

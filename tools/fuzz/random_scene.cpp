@@ -331,6 +331,7 @@ RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims
   def_ = random_def(random);
   std::vector<AssetPtr> assets = random_assets(random);
   assets.push_back(random_path(seed_));
+  assets.push_back(random_panels());
   assets_ = std::make_shared<const AssetSet>(std::move(assets));
 }
 
@@ -342,7 +343,10 @@ World RandomScene::make(BroadPhaseKind broad_phase) const {
   const Neighbourhood around(random);
   const int bodies = random.between(1, 24);
   std::vector<AssetPtr> shapes(assets_->all().begin(), assets_->all().end());
-  std::erase_if(shapes, [](const AssetPtr& asset) { return asset->kind() == ShapeKind::path; });
+  const AssetId floor = random_panels()->id();
+  std::erase_if(shapes, [&](const AssetPtr& asset) {
+    return asset->kind() == ShapeKind::path || asset->id() == floor;
+  });
   for (int i = 0; i < bodies; ++i)
     (void)world.create_body(random_body(random, around, shapes, with_rims_));
   const int joints = chance(random, 2) ? random.between(1, 20) : 0;

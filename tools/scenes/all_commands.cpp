@@ -165,6 +165,9 @@ Command sample(Tag<SetHeights>, BodyHandle body, Random&) {
   static constexpr std::array<Length, 1> k_height{Length::from_integer(1)};
   return SetHeights{.body = body, .heights = k_height};
 }
+Command sample(Tag<SetMeshGroup>, BodyHandle body, Random&) {
+  return SetMeshGroup{.body = body};
+}
 Command sample(Tag<WakeBody>, BodyHandle body, Random&) {
   return WakeBody{body};
 }

@@ -140,6 +140,32 @@ AssetPtr axe() {
   return compound_of(children);
 }
 
+AssetPtr panels(std::uint32_t columns, std::uint32_t rows, std::int32_t side_mm) {
+  std::vector<Point> vertices;
+  const auto place = [&](std::uint32_t i, std::uint32_t count) {
+    return millimetres_long((2 * static_cast<std::int32_t>(i) - static_cast<std::int32_t>(count)) *
+                            side_mm / 2);
+  };
+  for (std::uint32_t z = 0; z <= rows; ++z) {
+    for (std::uint32_t x = 0; x <= columns; ++x)
+      vertices.push_back({place(x, columns), {}, place(z, rows)});
+  }
+  std::vector<TriangleIndices> triangles;
+  std::vector<std::uint16_t> groups;
+  for (std::uint32_t i = 0; i < columns * rows; ++i) {
+    const std::uint32_t corner = i / columns * (columns + 1) + i % columns;
+    add_quad(triangles, corner, corner + columns + 1, corner + columns + 2, corner + 1);
+    groups.insert(groups.end(), 2, static_cast<std::uint16_t>(i));
+  }
+  MeshDef def;
+  def.vertices = vertices;
+  def.triangles = triangles;
+  def.triangle_groups = groups;
+  const MeshResult made = Mesh::build(def);
+  LKS_CHECK(made.ok());
+  return made.mesh;
+}
+
 AssetPtr extruded(std::span<const Point> profile, Length half_width, int strips) {
   const auto points = static_cast<std::uint32_t>(profile.size());
   std::vector<Point> vertices;

@@ -43,6 +43,10 @@ using Point = Vec3<Length>;
 /// left of its path (above, when x ascends) is the front.
 [[nodiscard]] AssetPtr extruded(std::span<const Point> profile, Length half_width, int strips);
 
+/// A level floor of square panels, in the plane y = 0 about the origin: those of a row along x are
+/// groups one after the other.
+[[nodiscard]] AssetPtr panels(std::uint32_t columns, std::uint32_t rows, std::int32_t side_mm);
+
 /// A paraboloid that opens upwards, its lowest point at the origin.
 [[nodiscard]] AssetPtr bowl(Length radius, Length depth, int rings, int segments);
 

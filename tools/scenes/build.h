@@ -69,6 +69,7 @@ extern const Scene k_one_way;                                            // one_
 extern const Scene k_terrain_edit;                                       // terrain_edit.cpp
 extern const Scene k_race;                                               // race.cpp
 extern const Scene k_ragdoll_drive;                                      // ragdolls.cpp
+extern const Scene k_trapdoors;                                          // trapdoors.cpp
 extern const Scene k_coaster, k_ratchets;                                // rails.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp

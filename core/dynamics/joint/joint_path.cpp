@@ -5,9 +5,8 @@
 
 namespace lockstone {
 
-const geometry::Curve* curve_of(const JointRecord& joint, const AssetSet* assets) {
-  if (!joint.is(JointKind::path) || assets == nullptr) return nullptr;
-  const Asset* asset = assets->find(path_of(joint));
+const geometry::Curve* find_curve(AssetId path, const AssetSet* assets) {
+  const Asset* asset = assets == nullptr ? nullptr : assets->find(path);
   return asset == nullptr ? nullptr : asset->curve();
 }
 

@@ -17,8 +17,14 @@ struct PathFrame {
   RawVec3 turning{};     // of the frame on its way along the path, rad/m, Q30
 };
 
-/// Null for other joints, and for a path that the set does not have.
-[[nodiscard]] const geometry::Curve* curve_of(const JointRecord& joint, const AssetSet* assets);
+/// Null for a path that the set does not have.
+[[nodiscard]] const geometry::Curve* find_curve(AssetId path, const AssetSet* assets);
+
+/// The same for other joints than path joints.
+[[nodiscard]] inline const geometry::Curve* curve_of(const JointRecord& joint,
+                                                     const AssetSet* assets) {
+  return joint.is(JointKind::path) ? find_curve(path_of(joint), assets) : nullptr;
+}
 
 /// Where anchor b is, `gap` away from frame a of the joint: near the place of the parameter.
 [[nodiscard]] PathFrame path_frame(const geometry::Curve& curve, const Mat3& frame_a,

@@ -6,7 +6,6 @@
 
 #include "core/base/reserved.h"
 #include "core/dynamics/joint/joint_numbers.h"
-#include "core/dynamics/joint/joint_path.h"
 #include "core/dynamics/linkage/rows/joint_drives.h"
 #include "core/dynamics/linkage/rows/pulled_links.h"
 
@@ -187,7 +186,6 @@ void JointPlanner::make_joint(AddedJoint& added) {
   LKS_ASSERT(is_reserved(system_.joints, system_.joints.size() + 1));
   LinkedJoint& joint = system_.joints.emplace_back();
   joint.record = added.record;
-  joint.curve = curve_of(*added.record, system_.assets);
   joint.a = added.a;
   joint.b = added.b;
   joint.rows.rows = system_.take_rows(most_rows(*added.record));

@@ -1,7 +1,6 @@
 #include "core/geometry/assets/edited_height_field.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/geometry/assets/height_editing.h"
 #include "core/geometry/assets/height_field_walk.h"
@@ -24,24 +23,8 @@ const HeightField& height_field(const Asset& asset) {
   return static_cast<const HeightField&>(asset);
 }
 
-class EditedSlots final : public EditedHeightFields {
- public:
-  explicit EditedSlots(std::uint32_t capacity) : slots_(capacity) {}
-
-  [[nodiscard]] std::uint32_t slots() const override {
-    return static_cast<std::uint32_t>(slots_.size());
-  }
-  const Asset* set(std::uint32_t slot, const Asset& base,
-                   std::span<const HeightTile> tiles) override {
-    return &slots_[slot].emplace(height_field(base), tiles);
-  }
-
- private:
-  std::vector<std::optional<EditedHeightField>> slots_;
-};
-
-std::unique_ptr<EditedHeightFields> make_edited(std::uint32_t capacity) {
-  return std::make_unique<EditedSlots>(capacity);
+std::unique_ptr<EditedAssets> make_edited(std::uint32_t capacity) {
+  return std::make_unique<EditedSlots<EditedHeightField>>(capacity);
 }
 
 const HeightFieldData& data_of(const Asset& asset) {
@@ -112,10 +95,10 @@ HeightRange EditedCells::block_range(int level, const GridPoint& at) const {
   return range;
 }
 
-EditedHeightField::EditedHeightField(const HeightField& base, std::span<const HeightTile> tiles)
+EditedHeightField::EditedHeightField(const Asset& base, std::span<const HeightTile> tiles)
     : Asset(ShapeKind::height_field, base.id()),
-      base_(base),
-      cells_(base.data(), tiles),
+      base_(height_field(base)),
+      cells_(base_.data(), tiles),
       bounds_(base.bounds()) {
   bounds_.lower.y = min(bounds_.lower.y, cells_.range().lowest);
   bounds_.upper.y = max(bounds_.upper.y, cells_.range().highest);

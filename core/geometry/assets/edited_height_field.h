@@ -39,7 +39,8 @@ class EditedCells {
 /// The asset of a body whose height field was changed. It has the id of the height field.
 class EditedHeightField final : public Asset {
  public:
-  EditedHeightField(const HeightField& base, std::span<const HeightTile> tiles);
+  /// `base` is a height field.
+  EditedHeightField(const Asset& base, std::span<const HeightTile> tiles);
 
   /// Of the height field without its changes.
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;

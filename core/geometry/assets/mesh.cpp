@@ -4,6 +4,8 @@
 
 #include "core/geometry/assets/asset_frame.h"
 #include "core/geometry/assets/mesh_data.h"
+#include "core/geometry/assets/mesh_editing.h"
+#include "core/geometry/assets/mesh_walk.h"
 #include "core/geometry/mesh_contact/mesh_kernels.h"
 
 namespace lockstone {
@@ -29,6 +31,8 @@ MeshRefusal check_sizes(const MeshDef& def) {
   if (!options) return {MeshFault::invalid_option};
   if (!def.triangle_surfaces.empty() && def.triangle_surfaces.size() != def.triangles.size())
     return {MeshFault::surface_out_of_range};
+  if (!def.triangle_groups.empty() && def.triangle_groups.size() != def.triangles.size())
+    return {MeshFault::group_out_of_range};
   return {};
 }
 
@@ -40,6 +44,8 @@ MeshRefusal check_surfaces(const MeshDef& def) {
     if (surface != k_own_surface && surface >= def.surfaces.size())
       return {MeshFault::surface_out_of_range, i};
   }
+  for (std::uint32_t i = 0; i < def.triangle_groups.size(); ++i)
+    if (def.triangle_groups[i] >= k_max_mesh_groups) return {MeshFault::group_out_of_range, i};
   return {};
 }
 
@@ -90,7 +96,32 @@ std::vector<T> reordered(const std::vector<T>& items, std::span<const std::uint3
   return result;
 }
 
+std::vector<MeshGroup> groups_of(const TriangleSoup& soup) {
+  std::vector<MeshGroup> groups(soup.groups.empty() ? 0 : k_max_mesh_groups);
+  std::vector<bool> exists(groups.size());
+  for (std::uint32_t i = 0; i < soup.groups.size(); ++i) {
+    const std::uint16_t group = soup.groups[i];
+    const LocalBounds bounds = bounds_of(soup.triangle(i));
+    LocalBounds& all = groups[group].bounds;
+    if (!exists[group]) all = bounds;
+    exists[group] = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      all.lower[axis] = min(all.lower[axis], bounds.lower[axis]);
+      all.upper[axis] = max(all.upper[axis], bounds.upper[axis]);
+    }
+  }
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    groups[i].group = static_cast<std::uint16_t>(i);
+  std::erase_if(groups, [&](const MeshGroup& group) { return !exists[group.group]; });
+  return groups;
+}
+
 }  // namespace
+
+const MeshGroup* find_group(const MeshData& data, std::uint32_t group) {
+  const auto at = std::ranges::lower_bound(data.groups, group, {}, &MeshGroup::group);
+  return at != data.groups.end() && at->group == group ? &*at : nullptr;
+}
 
 MeshData make_mesh_data(TriangleSoup soup, std::vector<Surface> surfaces, Angle flat_angle) {
   MeshData data;
@@ -103,7 +134,10 @@ MeshData make_mesh_data(TriangleSoup soup, std::vector<Surface> surfaces, Angle 
   data.tree = StaticTree::build(bounds, order);
   soup.triangles = reordered(soup.triangles, order);
   if (!soup.surfaces.empty()) soup.surfaces = reordered(soup.surfaces, order);
+  if (!soup.groups.empty()) soup.groups = reordered(soup.groups, order);
   number_vertices_by_use(soup);
+  data.groups = groups_of(soup);
+  if (!soup.groups.empty()) data.group_edges = shared_edges(soup);
   for (std::size_t i = 0; i < order.size(); ++i) {
     TriangleIndices& t = soup.triangles[i];
     const std::uint32_t edges = active[order[i]];
@@ -147,6 +181,8 @@ std::string_view to_string(MeshFault fault) {
       return "surface out of range";
     case MeshFault::invalid_option:
       return "option out of range";
+    case MeshFault::group_out_of_range:
+      return "group out of range";
   }
   return "unknown";
 }
@@ -164,7 +200,8 @@ MeshResult Mesh::build(const MeshDef& def) {
   if (result.fault != MeshFault::none) return result;
   geometry::TriangleSoup soup{{def.vertices.begin(), def.vertices.end()},
                               {def.triangles.begin(), def.triangles.end()},
-                              {def.triangle_surfaces.begin(), def.triangle_surfaces.end()}};
+                              {def.triangle_surfaces.begin(), def.triangle_surfaces.end()},
+                              {def.triangle_groups.begin(), def.triangle_groups.end()}};
   const geometry::SoupCounts counts = geometry::canonicalise(soup, def.weld_tolerance);
   result.welded_vertices = counts.welded_vertices;
   result.degenerate_triangles = counts.degenerate_triangles;
@@ -192,6 +229,8 @@ std::size_t Mesh::memory_bytes() const {
   const geometry::TriangleSoup& soup = data_->soup;
   return sizeof(*this) + sizeof(*data_) + soup.vertices.size() * sizeof(soup.vertices[0]) +
          soup.triangles.size() * sizeof(soup.triangles[0]) + soup.surfaces.size() +
+         2 * soup.groups.size() + data_->groups.size() * sizeof(geometry::MeshGroup) +
+         data_->group_edges.size() * sizeof(geometry::SharedEdge) +
          data_->surfaces.size() * sizeof(Surface) + data_->tree.memory_bytes();
 }
 
@@ -208,48 +247,30 @@ const geometry::MeshKernels* Mesh::mesh_kernels() const {
   return &geometry::mesh_kernels();
 }
 
-namespace {
-
-// Triangles that the window meets within the visitor's present limit.
-template <class Window, class Limit, class Visitor>
-void visit_nearest_first(const geometry::MeshData& data, const Window& window, Limit most,
-                         Visitor& visitor) {
-  geometry::TrianglePart part;
-  const auto visit = [&](std::uint32_t first, std::uint32_t count, std::int64_t limit) {
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      const geometry::TriangleVertices triangle = data.triangle(i);
-      std::int64_t at = 0;
-      if (!window.meets(geometry::bounds_of(triangle), limit, at)) continue;
-      limit = window.limit_of(
-          visitor.visit(part.set(i, triangle, data.active_edges(i), data.surface(i))));
-    }
-    return limit;
-  };
-  data.tree.nearest_first(window, window.limit_of(most), visit);
+const geometry::MeshEditing* Mesh::mesh_editing() const {
+  return data_->groups.empty() ? nullptr : &geometry::mesh_editing();
 }
 
-}  // namespace
+const MeshData& geometry::mesh_data(const Asset& asset) {
+  LKS_ASSERT(asset.kind() == ShapeKind::mesh);
+  return *static_cast<const Mesh&>(asset).data_;
+}
 
 void Mesh::visit_parts(const geometry::LocalBounds& region, geometry::PartVisitor& visitor) const {
-  geometry::TrianglePart part;
-  data_->tree.overlapping(region, [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      const geometry::TriangleVertices triangle = data_->triangle(i);
-      if (!overlap(geometry::bounds_of(triangle), region)) continue;
-      visitor.visit(part.set(i, triangle, data_->active_edges(i), data_->surface(i)));
-    }
-  });
+  geometry::visit_triangles(*data_, geometry::AllTriangles{*data_}, region, visitor);
 }
 
 void Mesh::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
                               const Vec3<Length>& reach, geometry::WayPartVisitor& visitor) const {
-  visit_nearest_first(*data_, geometry::RayWindow(origin, translation, reach),
-                      Unit::from_integer(1), visitor);
+  geometry::visit_nearest_first(*data_, geometry::AllTriangles{*data_},
+                                geometry::RayWindow(origin, translation, reach),
+                                Unit::from_integer(1), visitor);
 }
 
 void Mesh::visit_parts_near(const Vec3<Length>& point, Length reach,
                             geometry::NearPartVisitor& visitor) const {
-  visit_nearest_first(*data_, geometry::NearWindow(point), reach, visitor);
+  geometry::visit_nearest_first(*data_, geometry::AllTriangles{*data_}, geometry::NearWindow(point),
+                                reach, visitor);
 }
 
 }  // namespace lockstone

@@ -16,6 +16,7 @@ struct TriangleSoup {
   std::vector<Vec3<Length>> vertices;
   std::vector<TriangleIndices> triangles;
   std::vector<std::uint8_t> surfaces;  ///< one for each triangle, or empty: k_own_surface
+  std::vector<std::uint16_t> groups;   ///< one for each triangle, or empty: all 0
 
   [[nodiscard]] TriangleVertices triangle(const TriangleIndices& t) const {
     return {vertices[t.a], vertices[t.b], vertices[t.c]};
@@ -44,12 +45,29 @@ SoupCounts canonicalise(TriangleSoup& soup, Length weld_tolerance);
 /// between triangles of opposite winding are active.
 [[nodiscard]] std::vector<std::uint8_t> classify_edges(const TriangleSoup& soup, Angle flat_angle);
 
+/// A side of an edge between triangles of two groups, and the group on its other side.
+struct SharedEdge {
+  std::uint32_t corner = 0;  ///< triangle · 4 + edge
+  std::uint16_t group = 0;
+};
+
+/// Those of a soup of groups, by corner.
+[[nodiscard]] std::vector<SharedEdge> shared_edges(const TriangleSoup& soup);
+
+/// The triangles of a group.
+struct MeshGroup {
+  std::uint16_t group = 0;
+  LocalBounds bounds;
+};
+
 struct MeshData {
   TriangleSoup soup;  ///< triangles in the order of the tree; the highest bit
                       ///< of each index says whether its edge is active
   std::vector<Surface> surfaces;
   Angle flat_angle{};
   StaticTree tree;
+  std::vector<MeshGroup> groups;        ///< ascending; empty of a mesh without groups
+  std::vector<SharedEdge> group_edges;  ///< by corner
 
   static constexpr std::uint32_t k_active = std::uint32_t{1} << 31;
 
@@ -73,6 +91,9 @@ struct MeshData {
 /// The tree, the numbering that follows from it, and the edges, from a canonical soup.
 [[nodiscard]] MeshData make_mesh_data(TriangleSoup soup, std::vector<Surface> surfaces,
                                       Angle flat_angle);
+
+/// Whether the group has triangles, of a mesh of groups.
+[[nodiscard]] const MeshGroup* find_group(const MeshData& data, std::uint32_t group);
 
 /// The canonical bytes of a canonical soup.
 [[nodiscard]] std::vector<std::byte> encode_mesh(const TriangleSoup& soup,

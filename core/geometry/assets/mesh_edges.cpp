@@ -48,24 +48,46 @@ bool is_active(const TriangleSoup& soup, std::span<const EdgeSide> sides, Unit f
                         flat_cosine);
 }
 
+// Calls `f(sides)` for the sides of each edge.
+template <class F>
+void for_each_edge(const std::vector<EdgeSide>& sides, F&& f) {
+  for (std::size_t first = 0; first < sides.size();) {
+    std::size_t end = first + 1;
+    while (end < sides.size() && sides[end].same_edge(sides[first]))
+      ++end;
+    f(std::span<const EdgeSide>(&sides[first], end - first));
+    first = end;
+  }
+}
+
 }  // namespace
+
+std::vector<SharedEdge> shared_edges(const TriangleSoup& soup) {
+  std::vector<SharedEdge> shared;
+  const auto add = [&](const EdgeSide& side, const EdgeSide& other) {
+    shared.push_back({side.corner, soup.groups[other.triangle()]});
+  };
+  for_each_edge(sorted_sides(soup), [&](std::span<const EdgeSide> sides) {
+    if (sides.size() != 2) return;  // active
+    if (soup.groups[sides[0].triangle()] == soup.groups[sides[1].triangle()]) return;
+    add(sides[0], sides[1]);
+    add(sides[1], sides[0]);
+  });
+  std::ranges::sort(shared, {}, &SharedEdge::corner);
+  return shared;
+}
 
 std::vector<std::uint8_t> classify_edges(const TriangleSoup& soup, Angle flat_angle) {
   const Unit flat_cosine = sin_cos(flat_angle).cos;
   const std::vector<EdgeSide> sides = sorted_sides(soup);
   std::vector<std::uint8_t> active(soup.triangles.size(), 0);
-  for (std::size_t first = 0; first < sides.size();) {
-    std::size_t end = first + 1;
-    while (end < sides.size() && sides[end].same_edge(sides[first]))
-      ++end;
-    const std::span<const EdgeSide> group(&sides[first], end - first);
+  for_each_edge(sides, [&](std::span<const EdgeSide> group) {
     const unsigned bit = is_active(soup, group, flat_cosine) ? 1 : 0;
     for (const EdgeSide& side : group) {
       std::uint8_t& edges = active[side.triangle()];
       edges = static_cast<std::uint8_t>(edges | (bit << side.edge()));
     }
-    first = end;
-  }
+  });
   return active;
 }
 

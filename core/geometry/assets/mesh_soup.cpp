@@ -122,6 +122,7 @@ TriangleIndices lowest_first(const TriangleIndices& t) {
 struct SurfacedTriangle {
   TriangleIndices indices;
   std::uint8_t surface = k_own_surface;
+  std::uint16_t group = 0;
 
   friend constexpr auto operator<=>(const SurfacedTriangle&, const SurfacedTriangle&) = default;
 };
@@ -135,7 +136,8 @@ void sort_triangles(TriangleSoup& soup, SoupCounts& counts) {
     if (is_degenerate(soup.triangle(t))) {
       ++counts.degenerate_triangles;
     } else {
-      kept.push_back({lowest_first(t), soup.surfaces.empty() ? k_own_surface : soup.surfaces[i]});
+      kept.push_back({lowest_first(t), soup.surfaces.empty() ? k_own_surface : soup.surfaces[i],
+                      soup.groups.empty() ? std::uint16_t{0} : soup.groups[i]});
     }
   }
   std::sort(kept.begin(), kept.end());
@@ -148,11 +150,15 @@ void sort_triangles(TriangleSoup& soup, SoupCounts& counts) {
   const bool plain = std::all_of(kept.begin(), kept.end(), [](const SurfacedTriangle& t) {
     return t.surface == k_own_surface;
   });
+  const bool single =
+      std::all_of(kept.begin(), kept.end(), [](const SurfacedTriangle& t) { return t.group == 0; });
   soup.triangles.clear();
   soup.surfaces.clear();
+  soup.groups.clear();
   for (const SurfacedTriangle& t : kept) {
     soup.triangles.push_back(t.indices);
     if (!plain) soup.surfaces.push_back(t.surface);
+    if (!single) soup.groups.push_back(t.group);
   }
 }
 

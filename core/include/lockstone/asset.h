@@ -19,6 +19,7 @@ namespace geometry {
 struct HeightEditing;
 class Curve;
 struct LocalBounds;
+struct MeshEditing;
 struct MeshKernels;
 struct Polytope;
 struct Solid;
@@ -67,6 +68,9 @@ class Asset {
 
   /// The functions that change its heights in a world; null for an asset that is no height field.
   [[nodiscard]] virtual const geometry::HeightEditing* height_editing() const { return nullptr; }
+
+  /// The functions that switch its groups in a world; null for an asset that is no mesh of groups.
+  [[nodiscard]] virtual const geometry::MeshEditing* mesh_editing() const { return nullptr; }
 
   /// The curve of a path; null for other assets.
   [[nodiscard]] virtual const geometry::Curve* curve() const { return nullptr; }

@@ -277,6 +277,16 @@ struct SetHeights {
   std::span<const std::uint8_t> cell_surfaces{};  ///< as of HeightFieldDef; without effect in holes
 };
 
+/// Switches a group of triangles of a body's mesh on or off: nothing meets the triangles of a group
+/// that is off. Wakes the bodies there. not_found for a body without a mesh of groups;
+/// invalid_argument for a group without triangles; capacity_exhausted beyond
+/// WorldDef::terrain_tile_capacity.
+struct SetMeshGroup {
+  BodyHandle body{};
+  std::uint32_t group = 0;
+  bool is_on = true;
+};
+
 // clang-format off
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
@@ -288,7 +298,7 @@ struct SetHeights {
   X(SetEvents) \
   X(SetMotionType) X(SetShape) X(SetMassData) X(SetEnabled) \
   X(SetFluid) X(SetPairRule) X(SetSurfaceRule) X(SetOneWay) \
-  X(SetVehicle) X(DriveVehicle) X(SetHeights)
+  X(SetVehicle) X(DriveVehicle) X(SetHeights) X(SetMeshGroup)
 // clang-format on
 
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name

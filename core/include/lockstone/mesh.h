@@ -12,10 +12,14 @@ namespace lockstone {
 
 namespace geometry {
 struct MeshData;
-}
+/// Of an asset that is a mesh.
+[[nodiscard]] const MeshData& mesh_data(const Asset& asset);
+}  // namespace geometry
 
 inline constexpr std::uint32_t k_max_mesh_triangles = std::uint32_t{1} << 20;
 inline constexpr std::uint32_t k_max_mesh_vertices = 3 * k_max_mesh_triangles;
+/// Groups of triangles have numbers below this.
+inline constexpr std::uint32_t k_max_mesh_groups = 4096;
 
 /// Three vertices, counter-clockwise seen from the front. A mesh is met from the front only.
 struct TriangleIndices {
@@ -41,6 +45,10 @@ struct MeshDef {
   /// A convex edge whose faces' normals differ by at most this is met as if it were flat. From 0
   /// (every convex edge is an edge) to 1 rad.
   Angle flat_angle = Angle::from_ratio(1, 50);
+
+  /// For each triangle the number of its group, which a world may switch off (SetMeshGroup); empty:
+  /// all are of group 0, and none can be.
+  std::span<const std::uint16_t> triangle_groups{};
 };
 
 /// Why a mesh was refused.
@@ -53,6 +61,7 @@ enum class MeshFault : std::uint8_t {
   surface_out_of_range,     ///< a triangle names no surface, or not one index for each triangle
   invalid_surface,          ///< a property or rule outside the ranges of Surface
   invalid_option,           ///< weld_tolerance or flat_angle out of range
+  group_out_of_range,       ///< k_max_mesh_groups or more, or not one group for each triangle
 };
 
 /// A short lower-case English text, for logs.
@@ -77,10 +86,11 @@ struct [[nodiscard]] MeshResult {
 /// The order of vertices and triangles in the definition does not matter: parts are numbered by
 /// place. Where the weld tolerance is not 0, a vertex joins the first in the order of x, y, z that
 /// is within reach and stands for others already. Triangles without area and repeated ones are
-/// dropped and counted; of repeated ones the lowest surface index stays.
+/// dropped and counted; of repeated ones the lowest surface index stays, and of these the lowest
+/// group.
 ///
-/// Memory: 12 bytes a vertex; 12 a triangle, 1 more where there are surfaces, and about 22 for the
-/// tree.
+/// Memory: 12 bytes a vertex; 12 a triangle, 1 more where there are surfaces, 2 where there are
+/// groups, and about 22 for the tree; 8 a side of an edge between two groups.
 class Mesh final : public Asset {
  public:
   ~Mesh() override;
@@ -98,6 +108,7 @@ class Mesh final : public Asset {
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
   [[nodiscard]] const geometry::LocalBounds& bounds() const override;
   [[nodiscard]] const geometry::MeshKernels* mesh_kernels() const override;
+  [[nodiscard]] const geometry::MeshEditing* mesh_editing() const override;
   void visit_parts(const geometry::LocalBounds& region,
                    geometry::PartVisitor& visitor) const override;
   void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
@@ -108,6 +119,8 @@ class Mesh final : public Asset {
 
  private:
   Mesh(AssetId id, std::unique_ptr<const geometry::MeshData> data);
+
+  friend const geometry::MeshData& geometry::mesh_data(const Asset& asset);
 
   std::unique_ptr<const geometry::MeshData> data_;
 };

@@ -1,5 +1,6 @@
 // Terrain that changes: the samples and cells of a height field that the commands of a world have
-// replaced. The asset stays as it is; the changes are part of the state.
+// replaced, and the groups of a mesh that they have switched off. The asset stays as it is; the
+// changes are part of the state.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@ namespace lockstone {
 
 class World;
 
-/// The most tiles of a world: squares of 4 × 4 samples, of which each takes 92 bytes of a state.
+/// The most tiles of a world: squares of 4 × 4 samples, or 16 groups of a mesh, from a multiple of
+/// 16 on, of which one is off. Each takes 92 bytes of a state.
 inline constexpr std::uint32_t k_max_terrain_tiles = 1U << 16;
 
 /// A sample of a height field, and the cell from it to the next sample along both axes.
@@ -28,6 +30,11 @@ struct TerrainSample {
 [[nodiscard]] std::optional<TerrainSample> terrain_sample_of(const World& world, BodyHandle body,
                                                              std::uint32_t column,
                                                              std::uint32_t row);
+
+/// Whether a group of triangles of the body's mesh is switched on; nothing for a body without a
+/// mesh of groups, or a group without triangles.
+[[nodiscard]] std::optional<bool> is_mesh_group_on(const World& world, BodyHandle body,
+                                                   std::uint32_t group);
 
 /// The asset of a body as it is now, for drawing: its parts are those that bodies meet. Null for a
 /// shape complete in itself, or an unknown body. Valid until the next command or load.

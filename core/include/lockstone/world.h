@@ -55,7 +55,7 @@ struct WorldDef {
   Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};  ///< m/s²
   Velocity speed_limit = k_speed_limit;  ///< of every body, 1 … 500 m/s
   std::uint32_t vehicle_capacity = 0;    ///< 0 … k_max_vehicles
-  /// Changed tiles of height fields, of 4 × 4 samples each: 0 … k_max_terrain_tiles.
+  /// Tiles of 4 × 4 changed samples, or of 16 groups of a mesh: 0 … k_max_terrain_tiles.
   std::uint32_t terrain_tile_capacity = 0;
 
   friend bool operator==(const WorldDef&, const WorldDef&) = default;

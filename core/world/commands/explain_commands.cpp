@@ -231,6 +231,16 @@ class CommandExplainer::Properties {
                      "one whose change fits WorldDef::terrain_tile_capacity, " +
                          std::to_string(on_.impl.def.terrain_tile_capacity));
   }
+  void of(const SetMeshGroup& c) {
+    if (on_.body(c.body) == nullptr) return;
+    on_.find.require(mesh_groups_of(on_.impl, c.body.index) != nullptr, "body",
+                     "a body without a mesh of groups", "one with a mesh of groups");
+    if (on_.find.done()) return;
+    on_.find.require(has_group(on_.impl, c), "group", std::to_string(c.group),
+                     "one with triangles");
+    on_.find.require(has_room_for(on_.impl, c), "group", "one more than there is room for",
+                     "one that fits WorldDef::terrain_tile_capacity");
+  }
   void of(const SetOneWay& c) {
     const BodyRecord* record = on_.body(c.body);
     if (record == nullptr) return;

@@ -21,6 +21,11 @@ enum class HeightsFault : std::uint8_t {
 /// `body` has a height field (`terrain_of`).
 [[nodiscard]] HeightsFault fault_of(const WorldData& world, const SetHeights& command);
 
+/// `body` has a mesh of groups (`mesh_groups_of`): whether the group has triangles.
+[[nodiscard]] bool has_group(const WorldData& world, const SetMeshGroup& command);
+/// Whether the tile of its group fits the capacity.
+[[nodiscard]] bool has_room_for(const WorldData& world, const SetMeshGroup& command);
+
 /// Whether its tiles fit the capacity, of a command without fault.
 [[nodiscard]] bool has_room_for(const WorldData& world, const SetHeights& command);
 

@@ -1,4 +1,4 @@
-// The command that changes terrain.
+// The commands that change terrain and switch groups of meshes.
 
 #include <algorithm>
 
@@ -218,6 +218,63 @@ Status CommandExecutor::execute(const SetHeights& command) {
   return Status::ok;
 }
 
+namespace {
+
+// The tile of a group; one without holes where it has no record.
+HeightTile group_tile_of(const WorldData& world, const SetMeshGroup& command) {
+  const HeightTileKey key = geometry::group_tile_key(command.body.index, command.group);
+  if (const TerrainTileRecord* record = find_by_key(tiles_of(world), key)) return *record;
+  HeightTile none;
+  none.owner = key.owner;
+  none.row = key.row;
+  none.column = key.column;
+  return none;
+}
+
+HeightTile switched(HeightTile tile, const SetMeshGroup& command) {
+  const unsigned bit = 1U << command.group % HeightTile::k_samples, others = tile.holes & ~bit;
+  tile.holes = static_cast<std::uint16_t>(command.is_on ? others : others | bit);
+  return tile;
+}
+
+const geometry::LocalBounds* bounds_of_group(const WorldData& world, BodyHandle body,
+                                             std::uint32_t group) {
+  const Asset& asset = *world.assets->find(world.bodies[body.index].asset);
+  return asset.mesh_editing()->bounds_of(asset, group);
+}
+
+}  // namespace
+
+bool has_group(const WorldData& world, const SetMeshGroup& command) {
+  return bounds_of_group(world, command.body, command.group) != nullptr;
+}
+
+bool has_room_for(const WorldData& world, const SetMeshGroup& command) {
+  const HeightTile tile = group_tile_of(world, command);
+  const bool is_new = tile.holes == 0 && !command.is_on;
+  return !is_new || world.header.terrain_tile_count < world.tiles.size();
+}
+
+Status CommandExecutor::execute(const SetMeshGroup& command) {
+  if (world_.find(command.body) == nullptr) return Status::stale_handle;
+  const std::uint32_t body = command.body.index;
+  if (mesh_groups_of(world_, body) == nullptr) return Status::not_found;
+  if (!has_group(world_, command)) return Status::invalid_argument;
+  if (!has_room_for(world_, command)) return Status::capacity_exhausted;
+  const HeightTile before = group_tile_of(world_, command), after = switched(before, command);
+  if (after == before) return Status::ok;
+  disturb(world_, body, *bounds_of_group(world_, command.body, command.group));
+  std::uint32_t& count = world_.header.terrain_tile_count;
+  if (after.holes == 0)
+    remove_records(world_.tiles, count,
+                   [&](const HeightTile& old) { return old.key() == after.key(); });
+  else
+    LKS_CHECK(set_record(world_.tiles, count, after));
+  refresh_terrain(world_);
+  world_.contacts.forget_manifolds_of(body);
+  return Status::ok;
+}
+
 /// The way of the functions below into a world.
 class WorldTerrain {
  public:
@@ -240,6 +297,14 @@ std::optional<TerrainSample> terrain_sample_of(const World& world, BodyHandle bo
   const std::size_t place = HeightTile::place_of(at);
   const bool is_cell = at.i < field.cell_columns() && at.j < field.cell_rows();
   return TerrainSample{tile.heights[place], !is_cell || tile.is_hole(place), tile.surfaces[place]};
+}
+
+std::optional<bool> is_mesh_group_on(const World& world, BodyHandle body, std::uint32_t group) {
+  const WorldData& data = WorldTerrain::of(world);
+  if (data.find(body) == nullptr || mesh_groups_of(data, body.index) == nullptr) return {};
+  if (bounds_of_group(data, body, group) == nullptr) return {};
+  const HeightTile tile = group_tile_of(data, {.body = body, .group = group});
+  return !tile.is_hole(group % HeightTile::k_samples);
 }
 
 const Asset* asset_of(const World& world, BodyHandle body) {

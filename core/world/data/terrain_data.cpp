@@ -19,14 +19,21 @@ void unbind(WorldData& world) {
   world.edited_bodies.clear();
 }
 
-// Damaged memory may name a body without a height field.
+// The memory for the asset of a body with changes; null of one that can have none.
+geometry::EditedAssets* room_for(WorldData& world, std::uint32_t body) {
+  if (terrain_of(world, body) != nullptr) return world.edited_fields.get();
+  return mesh_groups_of(world, body) != nullptr ? world.edited_meshes.get() : nullptr;
+}
+
+// Damaged memory may name a body without a height field or a mesh of groups.
 void bind(WorldData& world, std::uint32_t body, std::span<const TerrainTileRecord> tiles) {
   if (body >= world.header.body_limit || !world.bodies[body].exists()) return;
-  if (terrain_of(world, body) == nullptr) return;
-  LKS_ASSERT(world.edited_bodies.size() < world.edited_fields->slots());
+  geometry::EditedAssets* room = room_for(world, body);
+  if (room == nullptr) return;
+  LKS_ASSERT(world.edited_bodies.size() < room->slots());
   const auto slot = static_cast<std::uint32_t>(world.edited_bodies.size());
   const Asset& base = *world.assets->find(world.bodies[body].asset);
-  world.cache.set_asset(body, world.edited_fields->set(slot, base, tiles));
+  world.cache.set_asset(body, room->set(slot, base, tiles));
   world.edited_bodies.push_back(body);
   world.refresh(body);
 }
@@ -40,9 +47,10 @@ void TerrainData::make_terrain_room(std::uint32_t tile_capacity, std::uint32_t b
   const std::uint32_t most = std::min(tile_capacity, body_capacity);
   edited_bodies.reserve(most);
   for (const AssetPtr& asset : assets.all()) {
-    if (asset->height_editing() == nullptr) continue;
-    edited_fields = asset->height_editing()->make_edited(most);
-    return;
+    if (const auto* editing = asset->height_editing(); editing != nullptr && !edited_fields)
+      edited_fields = editing->make_edited(most);
+    if (const auto* editing = asset->mesh_editing(); editing != nullptr && !edited_meshes)
+      edited_meshes = editing->make_edited(most);
   }
 }
 
@@ -67,6 +75,11 @@ bool forget_terrain_of(WorldData& world, std::uint32_t body) {
   remove_records(world.tiles, world.header.terrain_tile_count,
                  [&](const TerrainTileRecord& tile) { return tile.owner == body; });
   return world.header.terrain_tile_count != before;
+}
+
+const geometry::MeshEditing* mesh_groups_of(const WorldData& world, std::uint32_t body) {
+  const Asset* asset = world.assets->find(world.bodies[body].asset);
+  return asset == nullptr ? nullptr : asset->mesh_editing();
 }
 
 const geometry::HeightEditing* terrain_of(const WorldData& world, std::uint32_t body) {

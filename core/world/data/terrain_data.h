@@ -1,4 +1,4 @@
-// The changed tiles of the height fields of a world.
+// The changed tiles of the height fields of a world, and the groups of meshes that are off.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "core/dynamics/state/terrain_record.h"
 #include "core/geometry/assets/height_editing.h"
+#include "core/geometry/assets/mesh_editing.h"
 
 namespace lockstone {
 
@@ -17,7 +18,8 @@ struct WorldData;
 struct TerrainData {
   std::vector<TerrainTileRecord> tiles;  // canonical state: the first header.terrain_tile_count
   // Derived: the assets of bodies with tiles, and these bodies; a slot is a place in the list.
-  std::unique_ptr<geometry::EditedHeightFields> edited_fields;
+  std::unique_ptr<geometry::EditedAssets> edited_fields;
+  std::unique_ptr<geometry::EditedAssets> edited_meshes;
   std::vector<std::uint32_t> edited_bodies;
   std::uint64_t tile_hash = 0;  // derived: of all tiles, where it is known
   bool is_tile_hash_known = false;
@@ -33,6 +35,10 @@ void refresh_terrain(WorldData& world);
 
 /// Removes the tiles of a body. Returns whether there were any: then `refresh_terrain` follows.
 [[nodiscard]] bool forget_terrain_of(WorldData& world, std::uint32_t body);
+
+/// Of a body that exists: its functions, or null where it has no mesh of groups.
+[[nodiscard]] const geometry::MeshEditing* mesh_groups_of(const WorldData& world,
+                                                          std::uint32_t body);
 
 /// Of a body that exists: its functions, or null where it has no height field.
 [[nodiscard]] const geometry::HeightEditing* terrain_of(const WorldData& world, std::uint32_t body);

@@ -44,6 +44,9 @@ class Namer {
     const auto at = [](std::int32_t of_tile) {
       return std::to_string(of_tile * geometry::HeightTile::k_side);
     };
+    if (tile.row == geometry::k_group_row)
+      return end(tile.owner) + ", groups from " +
+             std::to_string(tile.column * geometry::HeightTile::k_samples);
     return end(tile.owner) + ", samples from " + at(tile.column) + ", " + at(tile.row);
   }
   [[nodiscard]] std::string name_of(SurfaceRuleStore, std::uint32_t,

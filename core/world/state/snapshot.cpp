@@ -181,6 +181,8 @@ Status validate(const VehicleRecord& record) {
 
 // One that is as in the asset would be another record of the same terrain.
 bool is_valid_tile(const Asset& asset, const TerrainTileRecord& tile) {
+  if (const geometry::MeshEditing* groups = asset.mesh_editing())
+    return groups->is_tile(asset, tile);
   const geometry::HeightEditing* editing = asset.height_editing();
   if (editing == nullptr) return false;
   const geometry::HeightFieldData& field = editing->data_of(asset);

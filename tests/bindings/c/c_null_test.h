@@ -176,6 +176,8 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_set_heights(NULL, 0, NULL, NULL, NULL, NULL));
   NULLED(lks_set_heights(world, 0, NULL, NULL, NULL, NULL));
   NULLED(lks_terrain_sample_get(NULL, 0, 0, 0, NULL, NULL, NULL));
+  NULLED(lks_set_mesh_group(NULL, body, 0, 1));
+  NULLED(lks_mesh_group_get(NULL, body, 0, &flag));
   NULLED(lks_terrain_tile_count(NULL, NULL));
   NULLED(lks_terrain_tile_count(world, NULL));
   NULLED(lks_set_pair_rule(NULL, 0, 0, 1, NULL));

@@ -1,5 +1,6 @@
 // Terrain that changes.
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <lockstone/height_field.h>
@@ -54,6 +55,22 @@ lks_status lks_terrain_sample_get(const lks_world* world, lks_body body, uint32_
     required(height, "height") = sample->height.raw;
     required(is_hole, "is_hole") = sample->is_hole ? 1 : 0;
     required(surface, "surface") = sample->surface;
+  });
+}
+
+lks_status lks_set_mesh_group(lks_world* world, lks_body body, uint32_t group, uint32_t is_on) {
+  return call([&] {
+    order(world, SetMeshGroup{handle_of<BodyHandle>(body), group, flag(is_on, "is_on")});
+  });
+}
+
+lks_status lks_mesh_group_get(const lks_world* world, lks_body body, uint32_t group,
+                              uint32_t* is_on) {
+  return call([&] {
+    const World& from = read(world);
+    const std::optional<bool> found = is_mesh_group_on(from, existing_body(from, body), group);
+    if (!found) throw failure(Status::invalid_argument);
+    required(is_on, "is_on") = *found ? 1 : 0;
   });
 }
 

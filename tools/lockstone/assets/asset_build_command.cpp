@@ -36,6 +36,7 @@ struct BuildOptions {
   std::string base = "0";
   int max_vertices = 64;
   bool z_up = false;
+  bool groups = false;
   bool force = false;
   bool json = false;
 };
@@ -88,6 +89,7 @@ std::string parse(const BuildOptions& options, assets::ObjImport& import) {
   import.reading = {*scale, options.z_up};
   import.max_vertices = options.max_vertices;
   import.weld_tolerance = weld.value();
+  import.groups = options.groups;
   for (const std::string& surface : options.surfaces)
     if (!parse_surface(surface, import)) return "--surface: NAME=FRICTION[,RESTITUTION]";
   return {};
@@ -186,6 +188,8 @@ void add_asset_build_command(CLI::App& asset, int& exit_code) {
       ->add_option("--max-vertices", options->max_vertices, "Most vertices of a hull (default 64)")
       ->check(CLI::Range(4, k_max_hull_vertices));
   command->add_option("--weld", options->weld, "Mesh: metres within which vertices become one");
+  command->add_flag("--groups", options->groups,
+                    "Mesh: each object of the OBJ file is a group that a world may switch off");
   command->add_option("--cell", options->cell, "PNG: metres between samples (default 1)");
   command->add_option("--height", options->height, "PNG: metres from black to white");
   command->add_option("--base", options->base, "PNG: height of black in metres (default 0)");

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -31,6 +32,20 @@ std::string input_text(const replay::InputDifference& input) {
                      input.here, input.there);
 }
 
+std::string side_text(const std::optional<replay::CommandDifference::Side>& side) {
+  if (!side) return "none";
+  const std::string giver =
+      side->slot == k_server_slot ? "the server" : fmt::format("player {}", side->slot);
+  return fmt::format("{} bytes of {}", side->size, giver);
+}
+
+std::string command_text(const replay::CommandDifference& command) {
+  return fmt::format(
+      "tick {}, command {}{}: {} here, {} there", command.tick, command.index,
+      command.here && command.there ? fmt::format(", byte {}", command.byte) : std::string(),
+      side_text(command.here), side_text(command.there));
+}
+
 std::string hash_line(const replay::HashDifference& hash) {
   return fmt::format("tick {}: {} here, {} there", hash.tick, hash_text(hash.here),
                      hash_text(hash.there));
@@ -45,6 +60,7 @@ void print_json(const LogComparison& comparison) {
     json["header"].push_back({{"field", field.field}, {"here", field.log}, {"there", field.here}});
   }
   if (comparison.input) json["input"] = input_text(*comparison.input);
+  if (comparison.command) json["command"] = command_text(*comparison.command);
   if (comparison.hash) json["hash"] = hash_line(*comparison.hash);
   write_json(json);
 }
@@ -54,6 +70,7 @@ void print_text(const LogComparison& comparison) {
     fmt::print("header   {}: {} here, {} there\n", field.field, field.log, field.here);
   if (!comparison.same_config) fmt::print("config   differs\n");
   if (comparison.input) fmt::print("input    {}\n", input_text(*comparison.input));
+  if (comparison.command) fmt::print("command  {}\n", command_text(*comparison.command));
   if (comparison.hash) fmt::print("hash     {}\n", hash_line(*comparison.hash));
   if (comparison.end_here != comparison.end_there) {
     fmt::print("end      tick {} here, {} there\n", comparison.end_here, comparison.end_there);
@@ -78,7 +95,8 @@ int diff(const DiffOptions& options) {
 
 void add_diff_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<DiffOptions>();
-  CLI::App* command = app.add_subcommand("diff", "Compare the inputs and hashes of two logs");
+  CLI::App* command = app.add_subcommand(
+      "diff", "Compare the inputs, the commands of players and the hashes of two logs");
   command->add_option("here", options->here, "A .lks log")->required();
   command->add_option("there", options->there, "Another one")->required();
   command->add_flag("--json", options->json, "Print JSON");

@@ -301,6 +301,8 @@ export interface Functions {
   lks_vehicle_get(world: number, chassis: bigint, out: number): number;
   lks_set_heights(world: number, body: bigint, rectangle: number, heights: number, holes: number, surfaces: number): number;
   lks_terrain_sample_get(world: number, body: bigint, column: number, row: number, height: number, is_hole: number, surface: number): number;
+  lks_set_mesh_group(world: number, body: bigint, group: number, is_on: number): number;
+  lks_mesh_group_get(world: number, body: bigint, group: number, is_on: number): number;
   lks_terrain_tile_count(world: number, out: number): number;
   lks_events(world: number, out: number, capacity: number, count: number): number;
   lks_joint_events(world: number, out: number, capacity: number, count: number): number;

@@ -6,6 +6,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/joint/joint_numbers.h"
+#include "core/dynamics/joint/joint_path.h"
 #include "core/math/product_sum.h"
 #include "core/math/reciprocal.h"
 
@@ -41,7 +42,7 @@ JointPlace place_of(const JointSystem& system, const LinkedJoint& joint, const J
           joint.far,
           joint.holds_a_point,
           joint.turns_locks,
-          joint.curve};
+          curve_of(*joint.record, system.assets)};
 }
 
 }  // namespace

@@ -51,7 +51,6 @@ using AxisImpulses = std::array<std::int64_t, k_joint_axes>;
 
 struct LinkedJoint {
   const JointRecord* record = nullptr;
-  const geometry::Curve* curve = nullptr;  // of a path joint
   JointRows rows;
   JointFrames frames;                        // where the bodies are now
   std::uint32_t a = 0, b = 0;                // in JointSystem::bodies

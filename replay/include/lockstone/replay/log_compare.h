@@ -25,8 +25,16 @@ struct InputDifference {
 
 /// The first command that differs, or that one log lacks.
 struct CommandDifference {
+  struct Side {
+    std::uint8_t slot = 0;  ///< of the player that gave it, or k_server_slot
+    std::size_t size = 0;   ///< bytes
+  };
+
   std::uint64_t tick = 0;
   std::size_t index = 0;  ///< among the tick's commands
+  std::size_t byte = 0;   ///< first differing byte, of two commands
+  std::optional<Side> here{};
+  std::optional<Side> there{};
 };
 
 struct HashDifference {

@@ -1,5 +1,5 @@
-/* Terrain that changes: samples and cells of the height field of a static body, as part of the
- * state; the asset stays as it is. */
+/* Terrain that changes: samples and cells of the height field of a static body, and groups of
+ * triangles of a mesh, as part of the state; the asset stays as it is. */
 #ifndef LOCKSTONE_C_TERRAIN_H
 #define LOCKSTONE_C_TERRAIN_H
 
@@ -33,7 +33,18 @@ LKS_API lks_status lks_terrain_sample_get(const lks_world* world, lks_body body,
                                           uint32_t row, lks_length* height, uint32_t* is_hole,
                                           uint32_t* surface);
 
-/* Changed tiles of 4 × 4 samples, of all bodies. */
+/* Switches a group of triangles of the body's mesh on (1) or off (0): nothing meets those of a
+ * group that is off. Wakes the bodies there. LKS_NOT_FOUND for a body without a mesh of groups;
+ * LKS_CAPACITY_EXHAUSTED beyond lks_world_def.terrain_tile_capacity. */
+LKS_API lks_status lks_set_mesh_group(lks_world* world, lks_body body, uint32_t group,
+                                      uint32_t is_on);
+
+/* Whether a group is on. Fails for a body without a mesh of groups, or a group without
+ * triangles. */
+LKS_API lks_status lks_mesh_group_get(const lks_world* world, lks_body body, uint32_t group,
+                                      uint32_t* is_on);
+
+/* Changed tiles of 4 × 4 samples, and of 16 groups of meshes, of all bodies. */
 LKS_API lks_status lks_terrain_tile_count(const lks_world* world, uint32_t* out);
 
 #ifdef __cplusplus

@@ -1173,6 +1173,8 @@ FUNCTIONS = {
     "lks_describe_difference": [c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, POINTER(c_uint32), c_void_p, c_size_t],
     "lks_set_heights": [c_int32, c_void_p, c_uint64, POINTER(lks_height_rectangle), POINTER(c_int32), c_void_p, c_void_p],
     "lks_terrain_sample_get": [c_int32, c_void_p, c_uint64, c_uint32, c_uint32, POINTER(c_int32), POINTER(c_uint32), POINTER(c_uint32)],
+    "lks_set_mesh_group": [c_int32, c_void_p, c_uint64, c_uint32, c_uint32],
+    "lks_mesh_group_get": [c_int32, c_void_p, c_uint64, c_uint32, POINTER(c_uint32)],
     "lks_terrain_tile_count": [c_int32, c_void_p, POINTER(c_uint32)],
     "lks_transport_destroy": [None, c_void_p],
     "lks_enet_def_init": [c_int32, POINTER(lks_enet_def), c_size_t],

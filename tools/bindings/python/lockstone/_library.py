@@ -186,6 +186,8 @@ _CALLS = {
     "lks_vehicle_controls_init": [c_void_p, c_size_t],
     "lks_drive_vehicle": [_WORLD, _BODY, c_void_p],
     "lks_vehicle_get": [_WORLD, _BODY, c_void_p],
+    "lks_set_mesh_group": [_WORLD, _BODY, c_uint32, c_uint32],
+    "lks_mesh_group_get": [_WORLD, _BODY, c_uint32, POINTER(c_uint32)],
     "lks_set_heights": [_WORLD, _BODY, c_void_p, c_void_p, c_void_p, c_void_p],
     "lks_terrain_sample_get": [_WORLD, _BODY, c_uint32, c_uint32, c_void_p, c_void_p, c_void_p],
     "lks_set_pair_rule": [_WORLD, _BODY, _BODY, c_uint32, POINTER(PairSurface)],

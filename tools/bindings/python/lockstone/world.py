@@ -223,6 +223,15 @@ class Body:
                    (ctypes.c_int32 * len(raw))(*raw) if heights is not None else None,
                    bytes(holes) if holes is not None else None, bytes(surfaces) if surfaces is not None else None)
 
+    def set_mesh_group(self, group: int, is_on: bool) -> None:
+        """Switches a group of triangles of the body's mesh on or off."""
+        self._call("lks_set_mesh_group", group, int(is_on))
+
+    def is_mesh_group_on(self, group: int) -> bool:
+        flag = ctypes.c_uint32()
+        lib.lks_mesh_group_get(self.world.handle, self.number, group, byref(flag))
+        return bool(flag.value)
+
     def terrain_sample(self, column: int, row: int) -> Tuple[float, bool, int]:
         """Height in metres in the frame of the asset, whether the cell from there is a hole, and its surface."""
         height, hole, surface = ctypes.c_int32(), ctypes.c_uint32(), ctypes.c_uint32()

@@ -1632,6 +1632,12 @@ namespace Lockstone.Interop
         public static extern int lks_terrain_sample_get(IntPtr world, ulong body, uint column, uint row, int* height, uint* is_hole, uint* surface);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_mesh_group(IntPtr world, ulong body, uint group, uint is_on);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_mesh_group_get(IntPtr world, ulong body, uint group, uint* is_on);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_terrain_tile_count(IntPtr world, uint* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -147,6 +147,13 @@ namespace Lockstone
             return Call.Text(text);
         }
 
+        /// <summary>Gives a command of the server's own, 1 … 65536 bytes, from `Native.LKS_SERVER_SLOT`.</summary>
+        public void SendCommand(ReadOnlySpan<byte> bytes)
+        {
+            fixed (byte* p = &MemoryMarshal.GetReference(bytes))
+                Call.Check(Native.lks_server_send_command(Pointer, p, (UIntPtr)bytes.Length));
+        }
+
         /// <summary>From here on each tick is written to this log.</summary>
         public void Record(Recorder recorder)
         {

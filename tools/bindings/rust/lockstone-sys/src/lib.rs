@@ -1188,6 +1188,8 @@ extern "C" {
     pub fn lks_describe_difference(world: *const lks_world, here: *const c_void, here_bytes: usize, there: *const c_void, there_bytes: usize, differs: *mut u32, text: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_set_heights(world: *mut lks_world, body: lks_body, rectangle: *const lks_height_rectangle, heights: *const lks_length, holes: *const u8, surfaces: *const u8) -> lks_status;
     pub fn lks_terrain_sample_get(world: *const lks_world, body: lks_body, column: u32, row: u32, height: *mut lks_length, is_hole: *mut u32, surface: *mut u32) -> lks_status;
+    pub fn lks_set_mesh_group(world: *mut lks_world, body: lks_body, group: u32, is_on: u32) -> lks_status;
+    pub fn lks_mesh_group_get(world: *const lks_world, body: lks_body, group: u32, is_on: *mut u32) -> lks_status;
     pub fn lks_terrain_tile_count(world: *const lks_world, out: *mut u32) -> lks_status;
     pub fn lks_transport_destroy(transport: *mut lks_transport);
     pub fn lks_enet_def_init(def: *mut lks_enet_def, size: usize) -> lks_status;

@@ -109,6 +109,10 @@ impl<G: Game> Server<G> {
         );
         done.map(|()| &self.events[..])
     }
+    /// Gives a command of the server's own, 1 … 65536 bytes, from `sys::LKS_SERVER_SLOT`.
+    pub fn send_command(&mut self, bytes: &[u8]) -> Result<()> {
+        check(unsafe { sys::lks_server_send_command(self.handle, bytes.as_ptr().cast(), bytes.len()) })
+    }
     /// From here on each tick is written to this log.
     pub fn record(&mut self, recorder: &Recorder<G>) -> Result<()> {
         check(unsafe { sys::lks_server_record(self.handle, recorder.as_ptr()) })
