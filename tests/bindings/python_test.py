@@ -8,6 +8,7 @@ import pathlib
 import re
 import sys
 import unittest
+from ctypes import byref, sizeof
 from decimal import Decimal
 from fractions import Fraction
 
@@ -87,6 +88,21 @@ class Worlds(unittest.TestCase):
         world.step(30)
         self.assertGreater(weight.position[1], -3)
         world.destroy_joint(joint)
+
+    def test_ratchets_and_paths(self):
+        assets = lockstone.Assets()
+        bend = assets.add_path([((0, 0, 0), (0, 1, 0)), ((4, -1, 0), (0, 1, 0)), ((8, 0, 2), (0, 1, 0))])
+        world = lockstone.World(body_capacity=4, assets=assets)
+        anchor = world.create_body(lockstone.sphere("0.1"), motion=lockstone.STATIC)
+        bead = world.create_body(lockstone.sphere("0.2"), position=(1, 0, 0))
+        definition = lockstone.world.JointDef()
+        lib = lockstone.world.lib
+        lib.lks_joint_def_init(byref(definition), sizeof(definition), lockstone.PATH, anchor.number, bead.number)
+        definition.path = bend
+        world.create_raw_joint(definition)
+        world.create_joint(lockstone.RATCHET, anchor, world.create_body(lockstone.box(1, 1, 1)))
+        world.step(600)
+        self.assertTrue(-1.1 < bead.position[1] < 0)
 
     def test_queries_find_bodies(self):
         world = small_world()
@@ -168,7 +184,7 @@ class Declarations(unittest.TestCase):
                       for line in bodies[name].split(";") if line.strip() for part in line.split(",")]
             self.assertEqual([field[0] for field in kind._fields_], fields, name)
             checked += 1
-        self.assertEqual(checked, 20)
+        self.assertEqual(checked, 21)
 
 
 def play(arguments):

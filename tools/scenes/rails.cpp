@@ -96,8 +96,7 @@ void add_train(World& world, BodyHandle ground, const AssetPtr& asset) {
 
 void build_coaster(World& world, std::uint64_t seed) {
   const std::vector<AssetPtr> assets = rail_assets(seed);
-  add_ground(world, 24_m);
-  const BodyHandle ground = world.body_at(0);
+  const BodyHandle ground = add(world, fixed_box({{}, -0.5_m, {}}, {24_m, 0.5_m, 24_m}));
   const Path& rail = as_path(assets[0]);
   lay_ties(world, rail, {}, rail.length());
   lay_ties(world, as_path(assets[1]), {}, as_path(assets[1]).length());
