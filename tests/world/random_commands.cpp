@@ -265,7 +265,9 @@ void CommandDice::fill(SetHeights& c) {
   c.heights = std::span(k_heights).subspan(random_.below(2), 1);
 }
 void CommandDice::fill(SetMeshGroup& c) {
-  c = {body(), static_cast<std::uint32_t>(random_.below(8)), chance(2)};
+  c.body = chance(2) ? body() : world_.body_at(14);  // the panels of a crowd
+  c.group = static_cast<std::uint32_t>(random_.below(3));
+  c.is_on = chance(2);
 }
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
@@ -334,7 +336,7 @@ WorldDef crowd_def() {
 }
 
 std::shared_ptr<const AssetSet> crowd_assets() {
-  return std::make_shared<const AssetSet>(std::vector{sample_height_field()});
+  return std::make_shared<const AssetSet>(std::vector{sample_height_field(), sample_panels()});
 }
 
 World make_crowd(Random& random) {
@@ -352,8 +354,11 @@ World make_crowd(Random& random) {
   }
   BodyDef terrain;
   terrain.motion = MotionType::static_body;
-  terrain.shape = crowd_assets()->all()[0]->shape();
+  terrain.shape = sample_height_field()->shape();
   terrain.position.y = -9_m;
+  add(world, terrain);
+  terrain.shape = sample_panels()->shape();
+  terrain.position.y = -12_m;
   add(world, terrain);
   for (std::uint32_t i = 1; i < 4; ++i) {
     JointDef def = JointDef::of(i == 1 ? JointKind::distance : JointKind::six_axis,
