@@ -108,13 +108,15 @@ Shape random_shape(Random& random, std::span<const AssetPtr> assets, bool with_r
   const Length z = random_size(random, most);
   if (!assets.empty() && chance(random, 3))
     return assets[random.below(static_cast<std::uint32_t>(assets.size()))]->shape();
-  if (with_rims && chance(random, 3)) switch (random.below(3)) {
+  if (with_rims && chance(random, 3)) switch (random.below(4)) {
       case 0:
         return Shape::cylinder(x, y);
       case 1:
         return Shape::cone(x, y);
-      default:
+      case 2:
         return Shape::tapered_capsule(x, y, z);
+      default:
+        return Shape::rounded_box(x, y, z, min(x, y));
     }
   switch (random.below(9)) {
     case 0:

@@ -60,7 +60,7 @@ bool holds(const Piece& piece, const Vec3<Length>& point) {
   if (piece.triangle.is_triangle) return is_in_triangle(*piece.polytope, point);
   if (piece.polytope != nullptr) return is_in_hull(*piece.polytope, point);
   if (piece.shape.kind == ShapeKind::half_space) return point.y <= k_seam_width;
-  return geometry::traits_of(piece.shape).holds(piece.shape.size, point, k_seam_width);
+  return geometry::traits_of(piece.shape).holds(piece.shape, point, k_seam_width);
 }
 
 /// How far the piece reaches from the origin of its frame along a unit vector of that frame.
@@ -68,7 +68,7 @@ Fine reach_along(const Piece& piece, const Vec3<Unit>& axis) {
   if (piece.polytope != nullptr) return geometry::support_of(*piece.polytope, axis).height;
   const Shape& shape = piece.shape;
   if (shape.kind == ShapeKind::half_space) return are_alike(axis, Mat3{}.y) ? 0 : k_no_end;
-  return geometry::traits_of(shape).reach(shape.size, axis);
+  return geometry::traits_of(shape).reach(shape, axis);
 }
 
 /// How far the piece rises above the plane through the point with this normal.
@@ -89,7 +89,7 @@ Vec3<Unit> face_along(const Piece& piece, const Vec3<Unit>& axis) {
     return best->normal;
   }
   if (piece.shape.kind == ShapeKind::half_space) return Mat3{}.y;
-  return geometry::traits_of(piece.shape).face_along(piece.shape.size, axis);
+  return geometry::traits_of(piece.shape).face_along(piece.shape, axis);
 }
 
 /// Calls `f(piece)` for the pieces at a point, and for no other piece of an asset with triangles.

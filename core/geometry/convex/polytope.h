@@ -52,6 +52,7 @@ struct Polytope {
   /// behind that face does not collide at all.
   bool one_sided = false;
   Fine unevenness = 0;                  ///< how far a vertex may lie below a face that it is around
+  Length radius{};                      ///< by which the shape surrounds the polytope
   const PolytopeLanes* wide = nullptr;  ///< null: few enough to be read one by one
 };
 

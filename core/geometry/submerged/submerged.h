@@ -50,7 +50,8 @@ struct SubmergedPart {
 /// rounded to 2^-28 of the scale. Solids of revolution by slices across their axis, in each
 /// interval between the breaks of the section Gauss–Legendre quadrature of 16 points in φ,
 /// y = m − w·cos φ, which takes the roots at the ends of the interval away: volumes and moments
-/// err by less than 2^-27 of the cube, or fourth power, of the scale.
+/// err by less than 2^-27 of the cube, or fourth power, of the scale. Rounded boxes and hulls by
+/// `RoundedFacets`.
 [[nodiscard]] SubmergedPart part_below(const ConvexSolid& solid, const BelowPlane& plane);
 
 /// The whole solid, as `part_below` of a plane above it.

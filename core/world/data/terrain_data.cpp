@@ -13,7 +13,7 @@ void unbind(WorldData& world) {
   for (const std::uint32_t body : world.edited_bodies) {
     const BodyRecord& record = world.bodies[body];
     if (!record.exists()) continue;
-    world.cache.set_asset(body, world.assets->find(record.asset));
+    world.cache.set_asset(body, world.assets->find(record.shape().asset_id()));
     world.refresh(body);
   }
   world.edited_bodies.clear();
@@ -25,7 +25,7 @@ void bind(WorldData& world, std::uint32_t body, std::span<const TerrainTileRecor
   if (terrain_of(world, body) == nullptr) return;
   LKS_ASSERT(world.edited_bodies.size() < world.edited_fields->slots());
   const auto slot = static_cast<std::uint32_t>(world.edited_bodies.size());
-  const Asset& base = *world.assets->find(world.bodies[body].asset);
+  const Asset& base = *world.assets->find(world.bodies[body].shape().asset_id());
   world.cache.set_asset(body, world.edited_fields->set(slot, base, tiles));
   world.edited_bodies.push_back(body);
   world.refresh(body);
@@ -70,7 +70,7 @@ bool forget_terrain_of(WorldData& world, std::uint32_t body) {
 }
 
 const geometry::HeightEditing* terrain_of(const WorldData& world, std::uint32_t body) {
-  const Asset* asset = world.assets->find(world.bodies[body].asset);
+  const Asset* asset = world.assets->find(world.bodies[body].shape().asset_id());
   return asset == nullptr ? nullptr : asset->height_editing();
 }
 

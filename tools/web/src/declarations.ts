@@ -47,6 +47,7 @@ export const LKS_COMPOUND = 7;
 export const LKS_CYLINDER = 8;
 export const LKS_CONE = 9;
 export const LKS_TAPERED_CAPSULE = 10;
+export const LKS_ROUNDED_BOX = 11;
 export const LKS_MAX_HISTORY_TICKS = 256;
 export const LKS_STATIC = 1;
 export const LKS_KINEMATIC = 2;

@@ -150,7 +150,7 @@ Manifold below_points(const PlaneMeeting& plane, const ContactFeature& feature) 
                                      const Vec3<Unit>& v, LowPolygon& polygon) {
     for (int i = 0; i < feature.count; ++i) {
       const FeaturePoint& point = feature.points[static_cast<std::size_t>(i)];
-      polygon.add(at, u, v, point.at, point.id);
+      polygon.add(at, u, v, point.at - along(at.normal, feature.radius), point.id);
     }
   };
   return below_face(plane, add_points);

@@ -46,6 +46,11 @@ def tapered_capsule(height: Quantity, bottom_radius: Quantity, top_radius: Quant
     return Shape(10, lengths((bottom_radius, height, top_radius)), 0)
 
 
+def rounded_box(half_x: Quantity, half_y: Quantity, half_z: Quantity, radius: Quantity) -> Shape:
+    """A box of these half extents, and all within the radius of it."""
+    return Shape(11, lengths((half_x, half_y, half_z)), _length(radius))
+
+
 def half_space() -> Shape:
     """All below the plane y = 0 of its body, which must be static."""
     return Shape(4, I32x3(0, 0, 0), 0)

@@ -946,6 +946,7 @@ namespace Lockstone.Interop
         public const uint LKS_CYLINDER = 8;
         public const uint LKS_CONE = 9;
         public const uint LKS_TAPERED_CAPSULE = 10;
+        public const uint LKS_ROUNDED_BOX = 11;
         public const uint LKS_C_ABI = 0;
         public const int LKS_OK = 0;
         public const int LKS_CAPACITY_EXHAUSTED = 1;

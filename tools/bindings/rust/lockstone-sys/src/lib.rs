@@ -49,6 +49,7 @@ pub const LKS_COMPOUND: u32 = 7;
 pub const LKS_CYLINDER: u32 = 8;
 pub const LKS_CONE: u32 = 9;
 pub const LKS_TAPERED_CAPSULE: u32 = 10;
+pub const LKS_ROUNDED_BOX: u32 = 11;
 pub const LKS_C_ABI: u32 = 0;
 pub const LKS_OK: i32 = 0;
 pub const LKS_CAPACITY_EXHAUSTED: i32 = 1;

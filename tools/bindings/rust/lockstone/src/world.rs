@@ -79,6 +79,15 @@ impl Shape {
     ) -> lks_shape {
         Self::of(sys::LKS_TAPERED_CAPSULE, bottom_radius, height, top_radius, 0)
     }
+    /// A box of these half extents, and all within the radius of it.
+    pub const fn rounded_box(
+        half_x: lks_length,
+        half_y: lks_length,
+        half_z: lks_length,
+        radius: lks_length,
+    ) -> lks_shape {
+        Self::of(sys::LKS_ROUNDED_BOX, half_x, half_y, half_z, radius as u32 as u64)
+    }
     pub const fn half_space() -> lks_shape {
         Self::of(sys::LKS_HALF_SPACE, 0, 0, 0, 0)
     }

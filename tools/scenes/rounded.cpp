@@ -1,0 +1,61 @@
+// Scenes of rounded boxes.
+#include "tools/scenes/build.h"
+
+namespace lockstone::scenes {
+namespace {
+
+using namespace lockstone::literals;
+
+// A die of half extent `half`, a fifth of it radius.
+Shape die(Length half) {
+  const Length core = half - half / 5;
+  return Shape::rounded_box(core, core, core, half / 5);
+}
+
+// A stack of dice, one that spins on a corner, soaps that slide and roll down a slope, a row of
+// dominoes, and a throw of dice.
+void build_dice(World& world, std::uint64_t seed) {
+  add_ground(world, 20_m);
+  for (int i = 0; i < 5; ++i)
+    add(world, loose(die(0.4_m), {-4_m, millimetres(400 + 800 * i), -2_m}));
+  BodyDef spinner = loose(die(0.4_m), {-2_m, 0.66_m, 1.5_m});
+  spinner.orientation =
+      multiply(from_axis_angle(k_x_axis, 0.6155_rad), from_axis_angle(k_z_axis, 0.7854_rad));
+  spinner.angular_velocity = {{}, 25_rps, {}};
+  add(world, spinner);
+  BodyDef slope = fixed_box({3_m, 0.6_m, -3_m}, {2_m, 0.2_m, 1.5_m});
+  slope.orientation = from_axis_angle(k_z_axis, 0.35_rad);
+  add(world, slope);
+  for (int i = 0; i < 3; ++i) {
+    // The rounder, the sooner it rolls.
+    const Length radius = millimetres_long(60 + 90 * i), core = millimetres_long(250) - radius;
+    BodyDef soap = loose(Shape::rounded_box(core, core, 0.2_m, radius),
+                         {4_m, 1.75_m, millimetres(-4000 + 1000 * i)});
+    soap.orientation = from_axis_angle(k_z_axis, 0.35_rad);
+    add(world, soap);
+  }
+  for (int i = 0; i < 8; ++i) {
+    BodyDef domino = loose(Shape::rounded_box(0.06_m, 0.46_m, 0.21_m, 0.04_m),
+                           {millimetres(-1000 + 450 * i), 0.5_m, 4_m});
+    if (i == 0) domino.angular_velocity = {{}, {}, -2_rps};
+    add(world, domino);
+  }
+  Random random(mix(seed));
+  for (int i = 0; i < 12; ++i) {
+    const Length half = millimetres_long(random.between(120, 260));
+    const std::int64_t x = random.between(-500, 500), z = random.between(-500, 500);
+    BodyDef thrown =
+        loose(die(half), {millimetres(x), millimetres(800 + 450 * i), millimetres(z - 1000)});
+    thrown.orientation = random_orientation(random);
+    thrown.velocity = {1_mps, {}, {}};
+    thrown.angular_velocity = {{}, {}, -5_rps};
+    add(world, thrown);
+  }
+}
+
+}  // namespace
+
+const Scene k_dice = {"dice", "dice with rounded edges: stacked, spinning, rolling, thrown", 240,
+                      small_world, build_dice};
+
+}  // namespace lockstone::scenes
