@@ -35,7 +35,7 @@ struct SoftReal {
     if (a.exponent < b.exponent) return b + a;
     const int fall = a.exponent - b.exponent;
     if (fall > 60) return a;
-    return of((a.mantissa >> 1) + raw::round_shift(b.mantissa, fall + 1), a.exponent + 1);
+    return of((a.mantissa >> 1) + raw::round_shift_any(b.mantissa, fall + 1), a.exponent + 1);
   }
   friend constexpr SoftReal operator-(SoftReal a, SoftReal b) { return a + -b; }
 

@@ -10,8 +10,8 @@ namespace lockstone::fuzz {
 namespace {
 
 constexpr std::array<std::string_view, k_kinds> k_names{
-    "sphere", "capsule",         "box",        "hull", "triangle", "half-space", "cylinder",
-    "cone",   "tapered-capsule", "rounded-box"};
+    "sphere", "capsule",         "box",         "hull",        "triangle", "half-space", "cylinder",
+    "cone",   "tapered-capsule", "rounded-box", "rounded-hull"};
 
 std::vector<Real3> own_core(const Body& body) {
   if (body.polytope != nullptr) {

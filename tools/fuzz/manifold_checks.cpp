@@ -62,11 +62,11 @@ void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
 
 // The deepest point of a core inside something with faces is not on the surfaces.
 bool has_core_inside(const Pair& pair, double separation) {
-  const bool cored =
-      pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule) || pair.has(Kind::rounded_box);
+  const bool cored = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule) ||
+                     pair.has(Kind::rounded_box) || pair.has(Kind::rounded_hull);
   if (!cored || pair.half_space() != nullptr) return false;
   const bool faces = pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle) ||
-                     pair.has_rims() || pair.has(Kind::rounded_box);
+                     pair.has_rims() || pair.has(Kind::rounded_box) || pair.has(Kind::rounded_hull);
   return faces && separation < 2 * tolerance(pair) - pair.radii();
 }
 
@@ -91,16 +91,29 @@ double aside_slack(const Pair& pair, const Manifold& m, double separation) {
   return std::ldexp(pair.size(), -22) + (m.count <= 2 ? std::ldexp(least_radius(pair), -15) : 0);
 }
 
+// The cosine of the least lean of the faces around the deepest vertex.
+double shown_face(const Body& body, const Real3& normal) {
+  const geometry::Polytope& p = *body.polytope;
+  std::size_t deepest = 0;
+  for (std::size_t i = 1; i < body.core.size(); ++i)
+    if (dot(body.core[i], normal) > dot(body.core[deepest], normal)) deepest = i;
+  double most = 0;
+  for (const geometry::HalfEdge& edge : p.edges)
+    if (edge.origin == deepest)
+      most = std::max(most, dot(turn(body.rotation, real(p.faces[edge.face].normal)), normal));
+  return most;
+}
+
 // The points of a rounded face that leans are those of balls around its vertices, of which only the
 // deepest is on the surface. So are the ends of an edge that leans by less than 1/32. A face is
 // shown up to 30° from the nearest axis; of shapes that overlap, the normal may be another.
 double lean_slack(const Body& body, const Real3& normal, double deepest) {
   if (!body.is_rounded()) return 0;
-  double most = 0;
-  for (int axis = 0; axis < 3; ++axis)
+  double most = body.polytope != nullptr ? shown_face(body, normal) : 0;
+  for (int axis = 0; axis < 3 && body.polytope == nullptr; ++axis)
     most = std::max(most, std::abs(dot(direction_of(real(body.rotation.column(axis))), normal)));
   const bool shows_face = deepest < 0 || most > std::cos(std::numbers::pi / 6) - 1e-6;
-  return body.radius * (1 - std::min(shows_face ? most : 1, std::cos(1.0 / 32)));
+  return 1.1 * body.radius * (1 - std::min(shows_face ? most : 1, std::cos(1.0 / 32)));
 }
 
 // A vertex may be moved onto a side by 31 µm, and at a corner onto two.
@@ -112,7 +125,7 @@ double surface_slack(const Pair& pair, const Manifold& m, double separation, dou
   const bool leans = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule);
   const double share = leans ? (ball(pair.a) + ball(pair.b)) / 1000 : 0;
   const Real3 n = direction_of(real(m.normal));
-  const double rounded = lean_slack(pair.a, n, deepest) + lean_slack(pair.b, n, deepest);
+  const double rounded = lean_slack(pair.a, n, deepest) + lean_slack(pair.b, -n, deepest);
   return tolerance(pair) + snap + share + rounded + aside_slack(pair, m, separation) +
          uneven_slack(pair);
 }

@@ -74,6 +74,15 @@ Body random_body(HullPool& pool, Dice& dice, Kind kind, const Sizes& sizes, std:
     body.shape = body.hull->shape();
     body.polytope = body.hull->polytope();
   }
+  if (kind == Kind::rounded_hull) {
+    const std::uint64_t built = std::min(k_hull_pool, 64 + index / 64);
+    const auto sharp = pool.at(dice.next() % built);
+    body.hull = Hull::build(sharp->vertices(), HullOptions::rounded(x, 128)).hull;
+    if (body.hull == nullptr) body.hull = sharp;  // too large
+    body.shape = body.hull->shape();
+    body.polytope = body.hull->polytope();
+    body.radius = real(body.hull->radius());
+  }
   if (kind == Kind::triangle) {
     body.triangle = std::make_unique<geometry::TrianglePolytope>();
     body.polytope = &body.triangle->set(random_triangle(dice, sizes));

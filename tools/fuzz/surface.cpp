@@ -172,7 +172,7 @@ double outside(const Body& body, const Real3& point) {
   if (body.is_box()) return outside_box(body, point) - body.radius;
   if (body.has_rims()) return outside_rims(body, point);
   if (body.is_tapered()) return outside_taper(body, point);
-  if (body.polytope != nullptr) return outside_polytope(body, point);
+  if (body.polytope != nullptr) return outside_polytope(body, point) - body.radius;
   return point_to_segment(point, body.core.front(), body.core.back()) - body.radius;
 }
 

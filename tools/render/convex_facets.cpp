@@ -11,9 +11,8 @@
 
 namespace lockstone::render {
 
-namespace {
-
-std::shared_ptr<const Hull> rounded_hull(const geometry::Polytope& polytope) {
+std::shared_ptr<const Hull> hull_within(const geometry::Polytope& polytope) {
+  if (polytope.radius == Length{}) return nullptr;
   std::vector<Vec3<Length>> points;
   const geometry::RoundedFacets facets(polytope, geometry::FacetReach::surface);
   facets.for_each([&](std::span<const geometry::RawVec> corners) {
@@ -24,13 +23,11 @@ std::shared_ptr<const Hull> rounded_hull(const geometry::Polytope& polytope) {
   return built.ok() ? built.hull : nullptr;
 }
 
-}  // namespace
-
 std::shared_ptr<const Hull> hull_within(const Shape& shape) {
   if (shape.kind <= ShapeKind::box || !is_primitive(shape.kind)) return nullptr;
   if (shape.kind == ShapeKind::rounded_box) {
     const geometry::BoxPolytope box(shape.size, shape.fourth_size());
-    return rounded_hull(box.view());
+    return hull_within(box.view());
   }
   const Mat3 still;
   geometry::ConvexCore core;

@@ -1,4 +1,8 @@
-// Scenes of rounded boxes.
+// Scenes of rounded boxes and hulls.
+#include <vector>
+
+#include <lockstone/hull.h>
+
 #include "tools/scenes/build.h"
 
 namespace lockstone::scenes {
@@ -53,7 +57,53 @@ void build_dice(World& world, std::uint64_t seed) {
   }
 }
 
+// Eight kinds of pebbles: hulls of few points with a radius.
+std::vector<AssetPtr> pebbles(std::uint64_t /*seed*/) {
+  Random random(mix(7));
+  std::vector<AssetPtr> assets;
+  for (int kind = 0; kind < 8; ++kind) {
+    std::vector<Vec3<Length>> points;
+    for (int i = 0; i < 7; ++i) {
+      const std::int64_t x = random.between(-220, 220), y = random.between(-110, 110),
+                         z = random.between(-160, 160);
+      points.push_back({millimetres_long(x), millimetres_long(y), millimetres_long(z)});
+    }
+    const Length radius = millimetres_long(40 + 15 * kind);
+    assets.push_back(Hull::build(points, HullOptions::rounded(radius)).hull);
+  }
+  return assets;
+}
+
+// A heap of pebbles between two walls, and stones that roll down a slope.
+void build_pebbles(World& world, std::uint64_t seed) {
+  add_ground(world, 20_m);
+  add(world, fixed_box({-1.2_m, 0.3_m, {}}, {0.2_m, 0.3_m, 1.4_m}));
+  add(world, fixed_box({1.2_m, 0.3_m, {}}, {0.2_m, 0.3_m, 1.4_m}));
+  BodyDef slope = fixed_box({4_m, 0.6_m, {}}, {2_m, 0.2_m, 1.5_m});
+  slope.orientation = from_axis_angle(k_z_axis, 0.35_rad);
+  add(world, slope);
+  const std::span<const AssetPtr> kinds = world.assets()->all();
+  Random random(mix(seed));
+  for (std::int64_t i = 0; i < 40; ++i) {
+    const auto kind = static_cast<std::size_t>(i) % kinds.size();
+    const std::int64_t x = random.between(-600, 600), z = random.between(-800, 800);
+    const bool rolls = i % 5 == 4;
+    BodyDef stone = loose(
+        kinds[kind]->shape(),
+        {millimetres(rolls ? 5000 : x), millimetres(rolls ? 1800 : 500 + 120 * i), millimetres(z)});
+    stone.orientation = random_orientation(random);
+    add(world, stone);
+  }
+}
+
 }  // namespace
+
+const Scene k_pebbles{.name = "pebbles",
+                      .description = "hulls with rounded edges: a heap, and stones down a slope",
+                      .golden_ticks = 240,
+                      .define = small_world,
+                      .build = build_pebbles,
+                      .assets = pebbles};
 
 const Scene k_dice = {"dice", "dice with rounded edges: stacked, spinning, rolling, thrown", 240,
                       small_world, build_dice};

@@ -51,7 +51,8 @@ bool is_in_triangle(const geometry::Polytope& triangle, const Vec3<Length>& poin
 
 bool is_in_hull(const geometry::Polytope& hull, const Vec3<Length>& point) {
   for (const geometry::PolytopeFace& face : hull.faces)
-    if (lockstone::dot(face.normal, point).raw - face.offset > fine(k_seam_width)) return false;
+    if (lockstone::dot(face.normal, point).raw - face.offset > fine(hull.radius + k_seam_width))
+      return false;
   return true;
 }
 
@@ -65,7 +66,8 @@ bool holds(const Piece& piece, const Vec3<Length>& point) {
 
 /// How far the piece reaches from the origin of its frame along a unit vector of that frame.
 Fine reach_along(const Piece& piece, const Vec3<Unit>& axis) {
-  if (piece.polytope != nullptr) return geometry::support_of(*piece.polytope, axis).height;
+  if (piece.polytope != nullptr)
+    return geometry::support_of(*piece.polytope, axis).height + fine(piece.polytope->radius);
   const Shape& shape = piece.shape;
   if (shape.kind == ShapeKind::half_space) return are_alike(axis, Mat3{}.y) ? 0 : k_no_end;
   return geometry::traits_of(shape).reach(shape, axis);
@@ -86,7 +88,11 @@ Vec3<Unit> face_along(const Piece& piece, const Vec3<Unit>& axis) {
     const geometry::PolytopeFace* best = &piece.polytope->faces.front();
     for (const geometry::PolytopeFace& face : piece.polytope->faces)
       if (lockstone::dot(face.normal, axis) > lockstone::dot(best->normal, axis)) best = &face;
-    return best->normal;
+    // Where the surface is round, each direction is that of a face.
+    constexpr std::int64_t k_near = (std::int64_t{1} << 60) - (std::int64_t{1} << 49);
+    const bool is_round =
+        piece.polytope->radius > Length{} && lockstone::dot(best->normal, axis).raw < k_near;
+    return is_round ? axis : best->normal;
   }
   if (piece.shape.kind == ShapeKind::half_space) return Mat3{}.y;
   return geometry::traits_of(piece.shape).face_along(piece.shape, axis);

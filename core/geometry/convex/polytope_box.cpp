@@ -58,7 +58,7 @@ BoxPolytope::BoxPolytope(const Vec3<Length>& half_extents, Length radius) : radi
 }
 
 Polytope BoxPolytope::view() const {
-  return {vertices_, faces_, k_box_edges, {}, nullptr, false, 0, radius_};
+  return {vertices_, faces_, k_box_edges, {}, nullptr, false, 0, radius_, nullptr};
 }
 
 }  // namespace lockstone::geometry

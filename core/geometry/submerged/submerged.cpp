@@ -167,6 +167,17 @@ void add_round(const Shape& shape, const Vec3<Unit>& n, std::int64_t offset, Sub
 
 namespace {
 
+/// Volumes of slivers below this have too few digits to be corrected by: 2^-36 of the scale's cube.
+constexpr std::int64_t k_least_corrected = 1 << 12;
+
+void correct(const FacetCorrection& facets, SubmergedPart& part) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t aside = saturated_product(part.volume, facets.centre[i], k_submerged_bits);
+    part.moment[i] = product_q30(part.moment[i] - aside, facets.volume);
+  }
+  part.volume = product_q30(part.volume, facets.volume);
+}
+
 /// The share of the facets that is below, of the exact volume.
 SubmergedPart rounded_box_below(const Shape& shape, const BelowPlane& plane) {
   const BoxPolytope box(shape.size, shape.fourth_size());
@@ -174,6 +185,7 @@ SubmergedPart rounded_box_below(const Shape& shape, const BelowPlane& plane) {
   SubmergedPart part = part_below({shape, &view}, plane);
   if (part.volume == 0) return part;
   const std::int64_t of_facets = whole({shape, &view}).volume;
+  if (of_facets < k_least_corrected) return part;
   const BlockFloat exact = traits_of(shape).volume(shape);
   const std::int64_t volume =
       raw::scale_binary(exact.mantissa, exact.exponent - 3 * part.scale + k_submerged_bits);
@@ -210,7 +222,24 @@ SubmergedPart part_below(const ConvexSolid& solid, const BelowPlane& plane) {
     add_round(solid.shape, plane.normal, offset, part);
   }
   part.volume = std::max<std::int64_t>(part.volume, 0);
+  if (solid.polytope != nullptr && solid.polytope->facets != nullptr)
+    correct(*solid.polytope->facets, part);
   return part;
+}
+
+FacetCorrection facet_correction(const Polytope& polytope, BlockFloat volume) {
+  LKS_ASSERT(polytope.radius > Length{} && polytope.facets == nullptr);
+  const Shape shape{ShapeKind::hull, {}, {}};
+  const SubmergedPart facets = whole({shape, &polytope});
+  const std::int64_t exact =
+      raw::scale_binary(volume.mantissa, volume.exponent - 3 * facets.scale + k_submerged_bits);
+  FacetCorrection correction;
+  if (facets.volume < k_least_corrected) return correction;
+  correction.volume = round_divide(multiply_wide(exact, std::int64_t{1} << 30), facets.volume);
+  for (std::size_t i = 0; i < 3; ++i)
+    correction.centre[i] = round_divide(
+        multiply_wide(facets.moment[i], std::int64_t{1} << k_submerged_bits), facets.volume);
+  return correction;
 }
 
 SubmergedPart whole(const ConvexSolid& solid) {

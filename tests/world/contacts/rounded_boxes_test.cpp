@@ -6,6 +6,7 @@
 
 #include <lockstone/compound.h>
 #include <lockstone/height_field.h>
+#include <lockstone/hull.h>
 #include <lockstone/mesh.h>
 
 #include "tests/support/random.h"
@@ -244,6 +245,115 @@ TEST(RoundedBoxBodies, AreRefusedByTheNameOfTheWrongSize) {
   EXPECT_EQ(world.explain(def).field, "body.shape.radius");
   def.shape = Shape::rounded_box({}, 0.4_m, 0.4_m, 0.1_m);
   EXPECT_EQ(world.explain(def).field, "body.shape.half_x");
+}
+
+// Rounded hulls ----------------------------------------------------------------------------------
+
+AssetPtr rounded_test_hull(Length half, Length radius) {
+  std::vector<Vec3<Length>> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(
+        {(i & 1) != 0 ? half : -half, (i & 2) != 0 ? half : -half, (i & 4) != 0 ? half : -half});
+  return Hull::build(corners, HullOptions::rounded(radius)).hull;
+}
+
+World rounded_hull_world(const std::vector<AssetPtr>& assets) {
+  const WorldDef def{.body_capacity = 64, .sleep_ms = 0};
+  return std::move(World::create(def, std::make_shared<AssetSet>(assets))).value();
+}
+
+TEST(RoundedHullBodies, StandInAStackAsRoundedBoxesDo) {
+  const AssetPtr hull = rounded_test_hull(0.4_m, 0.1_m);
+  World world = rounded_hull_world({hull});
+  test::add_ground(world);
+  std::vector<BodyHandle> dice;
+  for (int i = 0; i < 5; ++i) {
+    const Shape shape = i % 2 == 0 ? hull->shape() : k_die;
+    dice.push_back(
+        test::add(world, test::dynamic_body(shape, {}, Position::from_ratio(1 + 2 * i, 2), {})));
+  }
+  test::step(world, 900);
+  for (std::size_t i = 0; i < dice.size(); ++i) {
+    EXPECT_NEAR(metres(world.position(dice[i]).x), 0, 1e-3);
+    EXPECT_NEAR(metres(world.position(dice[i]).y), 0.5 + static_cast<double>(i), 5e-3);
+  }
+}
+
+TEST(RoundedHullBodies, ComeToRestOnTrianglesAndOnHulls) {
+  const AssetPtr hull = rounded_test_hull(0.15_m, 0.1_m);
+  std::vector<Vec3<Length>> points{
+      {}, {0.4_m, {}, {}}, {{}, 0.3_m, {}}, {{}, {}, 0.3_m}, {0.2_m, 0.2_m, 0.2_m}};
+  const AssetPtr stone = Hull::build(points, HullOptions::rounded(0.05_m)).hull;
+  const AssetPtr mesh = rounded_test_mesh();
+  World world = rounded_hull_world({hull, stone, mesh});
+  BodyDef ground;
+  ground.motion = MotionType::static_body;
+  ground.shape = mesh->shape();
+  test::add(world, ground);
+  std::vector<BodyHandle> bodies;
+  for (int i = 0; i < 12; ++i) {
+    const AssetPtr& asset = i % 2 == 0 ? hull : stone;
+    BodyDef def = test::dynamic_body(asset->shape(), Position::from_ratio(i % 3 * 6 - 6, 10),
+                                     Position::from_ratio(5 + 4 * i, 10),
+                                     Position::from_ratio(i % 2 * 5, 10));
+    def.material.rolling_resistance = Coefficient::from_ratio(1, 20);
+    bodies.push_back(test::add(world, def));
+  }
+  test::step(world, 900);
+  for (const BodyHandle body : bodies) {
+    const BodyView view = world.body(body);
+    if (metres(abs(view.position.x)) > 2.8 || metres(abs(view.position.z)) > 2.8) continue;
+    EXPECT_GT(metres(view.position.y), 0.0);
+    EXPECT_LT(std::abs(test::metres_per_second(view.velocity.y)), 0.05);
+  }
+}
+
+TEST(RoundedHullBodies, NonePassesAWallOfOneCentimetre) {
+  test::Random random(test::run_seed());
+  const AssetPtr hull = rounded_test_hull(0.02_m, 0.02_m);
+  for (int run = 0; run < test::share_of(300); ++run) {
+    World world = rounded_hull_world({hull});
+    BodyDef wall;
+    wall.motion = MotionType::static_body;
+    wall.shape = Shape::box(0.005_m, 20_m, 20_m);
+    test::add(world, wall);
+    BodyDef def = test::dynamic_body(hull->shape(), {}, {}, {});
+    def.position.x.raw =
+        -random.between(std::int64_t{1} << 30, std::int64_t{20} << 32) - (std::int64_t{1} << 31);
+    def.velocity.x.raw = random.between(std::int64_t{20} << 32, std::int64_t{400} << 32);
+    for (int axis = 0; axis < 3; ++axis)
+      def.angular_velocity[axis].raw =
+          random.between(-(std::int64_t{100} << 32), std::int64_t{100} << 32);
+    const BodyHandle bullet = test::add(world, def);
+    for (int tick = 0; tick < 30; ++tick) {
+      test::step(world, 1);
+      if (metres(abs(world.position(bullet).y)) > 19) break;
+      ASSERT_LT(metres(world.position(bullet).x), 0.0) << "run " << run << " tick " << tick;
+    }
+  }
+}
+
+TEST(RoundedHullBodies, ArePartsOfCompoundsAndFoundByQueries) {
+  const AssetPtr hull = rounded_test_hull(0.2_m, 0.1_m);
+  std::array<CompoundChild, 2> children;
+  for (std::size_t i = 0; i < 2; ++i) {
+    children[i].shape = hull->shape();
+    children[i].asset = hull;
+    children[i].position = {i == 0 ? -0.5_m : 0.5_m, {}, {}};
+  }
+  const auto pair = Compound::build(children).compound;
+  ASSERT_NE(pair, nullptr);
+  World world = rounded_hull_world({hull, pair});
+  test::add_ground(world);
+  const BodyHandle body = test::add(world, test::dynamic_body(pair->shape(), {}, 0.5_m, {}));
+  test::step(world, 300);
+  EXPECT_NEAR(metres(world.position(body).y), 0.3, 1e-3);
+  const RayHit hit = world.cast_ray({0.5_m, 5_m, {}}, {{}, -10_m, {}});
+  EXPECT_EQ(hit.body, body);
+  EXPECT_NEAR(metres(hit.point.y), 0.6, 2e-3);
+  BodyHandle found[2];
+  EXPECT_EQ(world.overlap_sphere({0.5_m, 0.67_m, {}}, 0.08_m, found), 1U);
+  EXPECT_EQ(world.overlap_sphere({0.5_m, 0.67_m, {}}, 0.06_m, found), 0U);
 }
 
 }  // namespace

@@ -86,13 +86,14 @@ export class Assets {
     forgotten.register(this, () => heap.f.lks_assets_destroy(address));
   }
 
-  /** The convex hull of 4 … 65536 points. */
-  addHull(points: readonly Vector[], maxVertices = 64): Shape {
+  /** The convex hull of 4 … 65536 points; with a radius, all points within it of that hull. */
+  addHull(points: readonly Vector[], maxVertices = 64, radius: Quantity = 0): Shape {
     const { heap } = this.lockstone;
     const bytes = points.length * c.lks_i32x3.$bytes;
     const asset = this.add(bytes, (at) => {
       points.forEach((point, i) => heap.putVector32(at + i * c.lks_i32x3.$bytes, point, c.LKS_LENGTH_BITS));
-      return heap.f.lks_assets_add_hull(this.address, at, points.length, maxVertices, heap.output);
+      return heap.f.lks_assets_add_rounded_hull(this.address, at, points.length, maxVertices, raw32(radius, c.LKS_LENGTH_BITS),
+        heap.output);
     });
     return assetShape("hull", asset);
   }

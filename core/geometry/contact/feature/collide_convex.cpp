@@ -241,9 +241,12 @@ bool is_one_sided(const PosedShape& posed) {
   return posed.polytope != nullptr && posed.polytope->one_sided;
 }
 
-/// The front of a one-sided polytope; `centre` is the other shape's, from the polytope's. False
-/// when that is behind it.
-bool is_before_front(const PosedShape& posed, const Vec3<Length>& centre) {
+/// The front of a one-sided polytope; the other shape's origin is `offset` away. False when its
+/// centre is behind the front.
+bool is_before_front(const PosedShape& posed, const PosedShape& other, const Vec3<Length>& offset) {
+  Vec3<Length> centre = offset;
+  if (other.polytope != nullptr)
+    centre += rounded<Length>(lockstone::rotate(other.rotation, other.polytope->interior));
   const PolytopeFace& front = posed.polytope->faces[0];
   return lockstone::dot(front.normal, rotate_inverse(posed.rotation, centre)).raw >= front.offset;
 }
@@ -305,7 +308,7 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
                         Length margin) {
   const ConvexMeeting pair{a, b, offset, margin};
   const bool front_a = is_one_sided(a);
-  if (front_a && !is_before_front(a, offset)) return {};
+  if (front_a && !is_before_front(a, b, offset)) return {};
   ConvexAxis axis;
   if (has_sphere(pair) || !find_side_axis(pair, axis)) axis = nearest_axis(pair);
   ShownFeatures shown;

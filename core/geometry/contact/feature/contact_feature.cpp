@@ -20,6 +20,15 @@ bool shows_round_part(const Polytope& p, const PolytopeFace& face, const Vec3<Un
   return p.radius > Length{} && lockstone::dot(face.normal, local).raw < k_cosine;
 }
 
+/// Whether a direction square to an edge, or nearly, is between the normals beside it.
+bool is_between_faces(const Polytope& p, const HalfEdge& edge, const Vec3<Unit>& n) {
+  constexpr std::int64_t k_slack = std::int64_t{1} << 50;
+  const Vec3<Unit>& here = p.faces[edge.face].normal;
+  const Vec3<Unit>& there = p.faces[p.edges[edge.twin].face].normal;
+  const std::int64_t least = lockstone::dot(here, there).raw - k_slack;
+  return lockstone::dot(n, here).raw >= least && lockstone::dot(n, there).raw >= least;
+}
+
 /// The edge at the vertex that leans least, with both ends unless it is steep.
 void round_part(const PosedShape& shape, int vertex, const Vec3<Unit>& local, ContactFeature& out) {
   LKS_ASSERT(shape.polytope != nullptr && is_unit(local));
@@ -28,7 +37,7 @@ void round_part(const PosedShape& shape, int vertex, const Vec3<Unit>& local, Co
   int best = -1;
   std::int64_t least = k_steep;
   for (std::size_t i = 0; i < p.edges.size(); ++i) {
-    if (p.edges[i].origin != vertex) continue;
+    if (p.edges[i].origin != vertex || !is_between_faces(p, p.edges[i], local)) continue;
     const Vec3<Unit> way = direction_of(edge_vector(p, static_cast<int>(i)));
     const std::int64_t lean = magnitude_of(lockstone::dot(way, local).raw);
     if (lean > least || (lean == least && best >= 0)) continue;

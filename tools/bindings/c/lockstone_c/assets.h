@@ -90,6 +90,11 @@ LKS_API void lks_assets_destroy(lks_assets* assets);
 LKS_API lks_status lks_assets_add_hull(lks_assets* assets, const lks_length3* points, size_t count,
                                        int32_t max_vertices, uint64_t* out);
 
+/* The same with a radius, 0.98 mm … 512 m: all points within it of that hull. */
+LKS_API lks_status lks_assets_add_rounded_hull(lks_assets* assets, const lks_length3* points,
+                                               size_t count, int32_t max_vertices,
+                                               lks_length radius, uint64_t* out);
+
 /* Adds an asset of any kind from its canonical bytes, as `lockstone asset build` writes them. They
  * may come from anywhere. A compound's hulls must be in the set: else LKS_NOT_FOUND. */
 LKS_API lks_status lks_assets_add_bytes(lks_assets* assets, const void* bytes, size_t count,

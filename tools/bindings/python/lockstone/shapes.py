@@ -68,10 +68,11 @@ class Assets:
         if hasattr(self, "handle"):
             lib.lks_assets_destroy(self.handle)
 
-    def add_hull(self, points: Iterable[Vector], max_vertices: int = 64) -> Shape:
-        """The convex hull of 4 … 65536 points."""
+    def add_hull(self, points: Iterable[Vector], max_vertices: int = 64,
+                 radius: Quantity = 0) -> Shape:
+        """The convex hull of 4 … 65536 points; with a radius, all points within it of that hull."""
         raw = [lengths(point) for point in points]
         asset = ctypes.c_uint64()
-        lib.lks_assets_add_hull(self.handle, (I32x3 * len(raw))(*raw), len(raw), max_vertices,
-                                ctypes.byref(asset))
+        lib.lks_assets_add_rounded_hull(self.handle, (I32x3 * len(raw))(*raw), len(raw), max_vertices,
+                                        _length(radius), ctypes.byref(asset))
         return Shape(3, I32x3(0, 0, 0), asset.value)

@@ -1125,6 +1125,9 @@ namespace Lockstone.Interop
         public static extern int lks_assets_add_hull(IntPtr assets, lks_i32x3* points, UIntPtr count, int max_vertices, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_assets_add_rounded_hull(IntPtr assets, lks_i32x3* points, UIntPtr count, int max_vertices, int radius, ulong* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_bytes(IntPtr assets, void* bytes, UIntPtr count, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -112,6 +112,14 @@ impl Assets {
         check(unsafe { sys::lks_assets_add_hull(self.0, points.as_ptr(), points.len(), max_vertices, &mut name) })?;
         Ok(name)
     }
+    /// Adds all points within the radius of that hull; returns its name.
+    pub fn add_rounded_hull(&mut self, points: &[lks_i32x3], max_vertices: i32, radius: lks_length) -> Result<u64> {
+        let mut name = 0;
+        check(unsafe {
+            sys::lks_assets_add_rounded_hull(self.0, points.as_ptr(), points.len(), max_vertices, radius, &mut name)
+        })?;
+        Ok(name)
+    }
     /// Adds an asset from its canonical bytes.
     pub fn add_bytes(&mut self, bytes: &[u8]) -> Result<u64> {
         let mut name = 0;
