@@ -61,6 +61,7 @@ TEST(CLibrary, ShapesHaveTheNumbersOfTheCore) {
   expect_same(LKS_CYLINDER, ShapeKind::cylinder);
   expect_same(LKS_CONE, ShapeKind::cone);
   expect_same(LKS_TAPERED_CAPSULE, ShapeKind::tapered_capsule);
+  expect_same(LKS_ROUNDED_BOX, ShapeKind::rounded_box);
 }
 
 TEST(CLibrary, SettingsOfBodiesHaveTheNumbersOfTheCore) {

@@ -81,6 +81,8 @@ class Worlds(unittest.TestCase):
     def test_joints_and_hulls(self):
         assets = lockstone.Assets()
         hull = assets.add_hull([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+        rounded = assets.add_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], radius="0.1")
+        self.assertNotEqual(rounded.asset, hull.asset)
         world = lockstone.World(body_capacity=4, assets=assets)
         anchor = world.create_body(hull, motion=lockstone.STATIC)
         weight = world.create_body(hull, position=(0, -2, 0))

@@ -12,6 +12,7 @@
 #include <lockstone/literals.h>
 
 #include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/numeric/q50.h"
 #include "core/geometry/shapes/tapered_ends.h"
 #include "core/math/roots.h"
@@ -216,6 +217,83 @@ TEST(PartBelow, OfRoundSolidsIsThatOfTheirSlices) {
       return y > high + b * s ? ball(high, b) : (a - (y - low) * s) / c;
     };
     check(taper, slices_below(low - a, high + b, outline, normal, d), "tapered capsule");
+  }
+}
+
+// The part of a rounded box below a plane in a grid of its points.
+Values rounded_below(const Shape& shape, const Vec3<Unit>& normal, long double d) {
+  constexpr int k_cells = 60;
+  const long double r = value(shape.fourth_size());
+  std::array<long double, 3> half{}, step{};
+  for (int i = 0; i < 3; ++i) {
+    half[static_cast<std::size_t>(i)] = value(shape.size[i]);
+    step[static_cast<std::size_t>(i)] = 2 * (value(shape.size[i]) + r) / k_cells;
+  }
+  Values sum;
+  const long double cell = step[0] * step[1] * step[2];
+  for (int index = 0; index < k_cells * k_cells * k_cells; ++index) {
+    const std::array<int, 3> at{index % k_cells, index / k_cells % k_cells,
+                                index / k_cells / k_cells};
+    std::array<long double, 3> point{};
+    long double beyond = 0, height = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      point[i] = (at[i] + 0.5L - k_cells / 2) * step[i];
+      const long double over = std::max(std::fabs(point[i]) - half[i], 0.0L);
+      beyond += over * over;
+      height += point[i] * value(normal[static_cast<int>(i)]);
+    }
+    if (beyond > r * r || height > d) continue;
+    sum.volume += cell;
+    for (std::size_t i = 0; i < 3; ++i)
+      sum.moment[i] += cell * point[i];
+  }
+  return sum;
+}
+
+// Shares of the whole within a hundredth, and centres within a hundredth of the size.
+TEST(PartBelow, OfARoundedBoxIsNearlyThatOfItsPoints) {
+  Random random(9);
+  for (int i = 0; i < 20; ++i) {
+    const Length x = random_size(random), y = random_size(random), z = random_size(random);
+    const Shape shape = Shape::rounded_box(x, y, z, random_size(random));
+    const Vec3<Unit> normal = random_direction(random);
+    const Position offset = Position::from_ratio(random.between(-2000, 2000), 1000);
+    const Values whole_solid = values_of(whole({shape, nullptr}));
+    const long double volume = rounded_below(shape, normal, 1e6L).volume;
+    const BlockFloat exact = traits_of(shape).volume(shape);
+    EXPECT_NEAR(static_cast<double>(whole_solid.volume) /
+                    std::ldexp(static_cast<double>(exact.mantissa), exact.exponent),
+                1, 1e-8);
+    EXPECT_NEAR(static_cast<double>(whole_solid.volume / volume), 1, 0.01);
+    const Values got = values_of(part_below({shape, nullptr}, {normal, offset}));
+    const Values wanted = rounded_below(shape, normal, value(offset.raw, 32));
+    EXPECT_NEAR(static_cast<double>(got.volume / whole_solid.volume),
+                static_cast<double>(wanted.volume / volume), 0.01);
+    const long double size = value(bounding_radius(shape));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(static_cast<double>(got.moment[k] / whole_solid.volume / size),
+                  static_cast<double>(wanted.moment[k] / volume / size), 0.01);
+  }
+}
+
+// A shadow grows by its circumference times the radius, and by a disc.
+TEST(Shadows, OfRoundedBoxesAreThoseOfTheirPlanAndRim) {
+  Random random(10);
+  for (int i = 0; i < 1000; ++i) {
+    const Length x = random_size(random), y = random_size(random), z = random_size(random);
+    const Shape shape = Shape::rounded_box(x, y, z, random_size(random));
+    const Vec3<Unit> n = random_direction(random);
+    const long double r = value(shape.fourth_size());
+    long double area = k_pi * r * r;
+    for (int k = 0; k < 3; ++k) {
+      const long double a = value(shape.size[(k + 1) % 3]), b = value(shape.size[(k + 2) % 3]);
+      const long double along = std::fabs(value(n[k]));
+      area += 4 * a * b * along + 4 * r * value(shape.size[k]) * std::sqrt(1 - along * along);
+    }
+    const Shadow shadow = shadow_of({shape, nullptr}, n);
+    EXPECT_NEAR(std::ldexp(static_cast<double>(shadow.area), 2 * shadow.scale - 48) /
+                    static_cast<double>(area),
+                1, 1e-6);
   }
 }
 

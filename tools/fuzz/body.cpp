@@ -9,9 +9,9 @@
 namespace lockstone::fuzz {
 namespace {
 
-constexpr std::array<std::string_view, k_kinds> k_names{"sphere",   "capsule",  "box",
-                                                        "hull",     "triangle", "half-space",
-                                                        "cylinder", "cone",     "tapered-capsule"};
+constexpr std::array<std::string_view, k_kinds> k_names{
+    "sphere", "capsule",         "box",         "hull",        "triangle", "half-space", "cylinder",
+    "cone",   "tapered-capsule", "rounded-box", "rounded-hull"};
 
 std::vector<Real3> own_core(const Body& body) {
   if (body.polytope != nullptr) {
@@ -31,7 +31,7 @@ std::vector<Real3> own_core(const Body& body) {
     return {at(ends.low), at(ends.high)};
   }
   if (body.kind == Kind::capsule) return {{0, -size.y, 0}, {0, size.y, 0}};
-  if (body.kind != Kind::box) return {{}};
+  if (!body.is_box()) return {{}};
   std::vector<Real3> core;
   for (int i = 0; i < 8; ++i)
     core.push_back({(i & 1) != 0 ? size.x : -size.x, (i & 2) != 0 ? size.y : -size.y,
@@ -62,6 +62,7 @@ std::string text_of(const Body& body) {
   std::string text =
       fmt::format("{} size {} rotation", k_names[static_cast<std::size_t>(body.kind)],
                   text_of(body.shape.size));
+  if (body.is_rounded()) text = fmt::format("radius {} ", body.radius) + text;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3<Unit>& c = body.rotation.column(axis);
     text += fmt::format(" ({}, {}, {})", c.x.raw, c.y.raw, c.z.raw);

@@ -70,8 +70,8 @@ void check_ray_at(const Body& body, const Vec3<Length>& origin, const Vec3<Lengt
                   Verdict& verdict) {
   const ShapeRayHit hit = cast_ray(body.posed(), origin, way);
   const Real3 o = real(origin), t = real(way);
-  const double allowed =
-      2 * k_micrometre + std::ldexp(norm(t), -30) + 4e-9 * body.size() + 6e-9 * body.rim_radius();
+  const double allowed = 2 * k_micrometre + std::ldexp(norm(t), -30) + 4e-9 * body.size() +
+                         6e-9 * body.rim_radius() + (body.is_rounded() ? 2 * body.unevenness : 0);
   if (!hit.hit) {
     verdict.require(Check::ray_miss, !is_entered(body, o, t, allowed));
     return;

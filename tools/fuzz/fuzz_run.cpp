@@ -48,8 +48,9 @@ FuzzReport check_block(const FuzzOptions& options, HullPool& pool, std::uint64_t
 }  // namespace
 
 std::vector<Kind> all_kinds() {
-  return {Kind::sphere,     Kind::capsule,  Kind::box,  Kind::hull,           Kind::triangle,
-          Kind::half_space, Kind::cylinder, Kind::cone, Kind::tapered_capsule};
+  return {Kind::sphere,          Kind::capsule,     Kind::box,         Kind::hull,
+          Kind::triangle,        Kind::half_space,  Kind::cylinder,    Kind::cone,
+          Kind::tapered_capsule, Kind::rounded_box, Kind::rounded_hull};
 }
 
 FuzzReport fuzz_pairs(const FuzzOptions& asked) {

@@ -41,11 +41,12 @@ bool may_be_behind(const Pair& pair, double distance) {
   return pair.has(Kind::triangle) && std::abs(distance) < tolerance(pair);
 }
 
-// Nearly parallel edges are as near along many directions. So near a rim, one that leans back may be
-// taken for the nearest.
+// Nearly parallel edges are as near along many directions. So near a rim, one that leans back may
+// be taken for the nearest.
 bool may_lean_back(const Pair& pair, const Vec3<Unit>& out, double distance) {
   constexpr double k_near = 16 * k_micrometre;
-  const bool is_near_rim = pair.has(Kind::triangle) && pair.has_rims() && std::abs(distance) < k_near;
+  const bool is_near_rim =
+      pair.has(Kind::triangle) && pair.has_rims() && std::abs(distance) < k_near;
   return is_near_rim || leans_back(pair, real(out));
 }
 
@@ -59,12 +60,13 @@ void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
   if (depth > choice_slack(pair, 0)) verdict.require(Check::overlap, answers.least() <= 0);
 }
 
-// The deepest point of a capsule's core inside something with faces is not on the surfaces.
+// The deepest point of a core inside something with faces is not on the surfaces.
 bool has_core_inside(const Pair& pair, double separation) {
-  const bool cored = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule);
+  const bool cored = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule) ||
+                     pair.has(Kind::rounded_box) || pair.has(Kind::rounded_hull);
   if (!cored || pair.half_space() != nullptr) return false;
-  const bool faces =
-      pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle) || pair.has_rims();
+  const bool faces = pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle) ||
+                     pair.has_rims() || pair.has(Kind::rounded_box) || pair.has(Kind::rounded_hull);
   return faces && separation < 2 * tolerance(pair) - pair.radii();
 }
 
@@ -89,21 +91,51 @@ double aside_slack(const Pair& pair, const Manifold& m, double separation) {
   return std::ldexp(pair.size(), -22) + (m.count <= 2 ? std::ldexp(least_radius(pair), -15) : 0);
 }
 
+// The cosine of the least lean of the faces around the deepest vertex.
+double shown_face(const Body& body, const Real3& normal) {
+  const geometry::Polytope& p = *body.polytope;
+  std::size_t deepest = 0;
+  for (std::size_t i = 1; i < body.core.size(); ++i)
+    if (dot(body.core[i], normal) > dot(body.core[deepest], normal)) deepest = i;
+  double most = 0;
+  for (const geometry::HalfEdge& edge : p.edges)
+    if (edge.origin == deepest)
+      most = std::max(most, dot(turn(body.rotation, real(p.faces[edge.face].normal)), normal));
+  return most;
+}
+
+// The points of a rounded face that leans are those of balls around its vertices, of which only the
+// deepest is on the surface. So are the ends of an edge that leans by less than 1/32. A face is
+// shown up to 30° from the nearest axis; of shapes that overlap, the normal may be another.
+double lean_slack(const Body& body, const Real3& normal, double deepest) {
+  if (!body.is_rounded()) return 0;
+  double most = body.polytope != nullptr ? shown_face(body, normal) : 0;
+  for (int axis = 0; axis < 3 && body.polytope == nullptr; ++axis)
+    most = std::max(most, std::abs(dot(direction_of(real(body.rotation.column(axis))), normal)));
+  const bool shows_face = deepest < 0 || most > std::cos(std::numbers::pi / 6) - 1e-6;
+  return 1.1 * body.radius * (1 - std::min(shows_face ? most : 1, std::cos(1.0 / 32)));
+}
+
 // A vertex may be moved onto a side by 31 µm, and at a corner onto two.
-double surface_slack(const Pair& pair, const Manifold& m, double separation) {
+double surface_slack(const Pair& pair, const Manifold& m, double separation, double deepest) {
   const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre * std::numbers::sqrt2;
   const auto ball = [](const Body& body) {
     return body.is_tapered() ? body.radius + std::max(body.swell[0], body.swell[1]) : body.radius;
   };
   const bool leans = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule);
   const double share = leans ? (ball(pair.a) + ball(pair.b)) / 1000 : 0;
-  return tolerance(pair) + snap + share + aside_slack(pair, m, separation) + uneven_slack(pair);
+  const Real3 n = direction_of(real(m.normal));
+  const double rounded = lean_slack(pair.a, n, deepest) + lean_slack(pair.b, -n, deepest);
+  return tolerance(pair) + snap + share + rounded + aside_slack(pair, m, separation) +
+         uneven_slack(pair);
 }
 
 // How far the common anchor of overlapping shapes is from A's surface, as a share of the overlap.
 double share_of_a(const Pair& pair) {
-  const bool round_a = pair.a.radius > 0 || pair.a.has_rims();
-  const bool round_b = pair.b.radius > 0 || pair.b.has_rims();
+  const auto is_round = [](const Body& body) {
+    return (body.radius > 0 && !body.is_rounded()) || body.has_rims();
+  };
+  const bool round_a = is_round(pair.a), round_b = is_round(pair.b);
   if (round_a == round_b) return 0.5;
   return round_a ? 0 : 1;
 }
@@ -119,11 +151,14 @@ void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p,
     on_a = on_a - real(m.normal) * (separation * share);
     on_b = on_b + real(m.normal) * (separation * (1 - share));
   }
-  const double depth = pair.has_rims() ? std::min(separation, -real(deep.depth)) : separation;
-  if (separation < k_deepest || has_core_inside(pair, depth)) return;
+  const double deepest = std::min(separation, -real(deep.depth));
+  const bool of_all = pair.has_rims() || pair.a.is_rounded() || pair.b.is_rounded();
+  if (separation < k_deepest || has_core_inside(pair, of_all ? deepest : separation)) return;
   if (separation <= 0 && may_push_aside(pair, out)) return;
-  verdict.measure(Check::anchors, outside(pair.a, on_a), surface_slack(pair, m, separation));
-  verdict.measure(Check::anchors, outside(pair.b, on_b), surface_slack(pair, m, separation));
+  verdict.measure(Check::anchors, outside(pair.a, on_a),
+                  surface_slack(pair, m, separation, deepest));
+  verdict.measure(Check::anchors, outside(pair.b, on_b),
+                  surface_slack(pair, m, separation, deepest));
 }
 
 }  // namespace

@@ -60,12 +60,28 @@ Body random_body(HullPool& pool, Dice& dice, Kind kind, const Sizes& sizes, std:
   if (kind == Kind::cone) body.shape = Shape::cone(y, x);
   if (kind == Kind::tapered_capsule)
     body.shape = Shape::tapered_capsule(y, x, dice.chance(8) ? x : z);
+  if (kind == Kind::rounded_box) {
+    const Length radius = size();
+    const auto core = [&](Length half) { return min(half, k_max_shape_size - radius); };
+    const Length wide = core(x), high = core(dice.chance(4) ? x : y), deep = core(z);
+    body.shape = Shape::rounded_box(wide, high, deep, radius);
+    body.radius = real(radius);
+  }
   if (kind == Kind::half_space) body.shape = Shape::half_space();
   if (kind == Kind::hull) {
     const std::uint64_t built = std::min(k_hull_pool, 64 + index / 64);
     body.hull = pool.at(dice.next() % built);
     body.shape = body.hull->shape();
     body.polytope = body.hull->polytope();
+  }
+  if (kind == Kind::rounded_hull) {
+    const std::uint64_t built = std::min(k_hull_pool, 64 + index / 64);
+    const auto sharp = pool.at(dice.next() % built);
+    body.hull = Hull::build(sharp->vertices(), HullOptions::rounded(x, 128)).hull;
+    if (body.hull == nullptr) body.hull = sharp;  // too large
+    body.shape = body.hull->shape();
+    body.polytope = body.hull->polytope();
+    body.radius = real(body.hull->radius());
   }
   if (kind == Kind::triangle) {
     body.triangle = std::make_unique<geometry::TrianglePolytope>();
@@ -92,7 +108,7 @@ Vec3<Length> bounded(const Real3& v, double bound = k_farthest) {
 // A normal of one of its faces; of a shape without faces, any direction.
 Real3 some_normal(Dice& dice, const Body& body) {
   if (body.kind == Kind::half_space) return real(body.rotation.y);
-  if (body.kind == Kind::box)
+  if (body.is_box())
     return real(body.rotation.column(static_cast<int>(dice.between(0, 2)))) *
            (dice.chance(2) ? -1 : 1);
   if (body.has_rims()) {

@@ -25,9 +25,11 @@ enum class Kind : std::uint8_t {
   half_space,
   cylinder,
   cone,
-  tapered_capsule
+  tapered_capsule,
+  rounded_box,
+  rounded_hull
 };
-inline constexpr int k_kinds = 9;
+inline constexpr int k_kinds = 11;
 
 [[nodiscard]] std::string_view name_of(Kind kind);
 [[nodiscard]] std::optional<Kind> kind_named(std::string_view name);
@@ -60,6 +62,11 @@ struct Body {
   [[nodiscard]] PosedShape posed() const { return {shape, rotation, polytope}; }
   [[nodiscard]] bool is_one_sided() const { return kind == Kind::triangle; }
   [[nodiscard]] bool is_tapered() const { return kind == Kind::tapered_capsule; }
+  [[nodiscard]] bool is_box() const { return kind == Kind::box || kind == Kind::rounded_box; }
+  /// Whether a radius surrounds a core with faces.
+  [[nodiscard]] bool is_rounded() const {
+    return kind == Kind::rounded_box || kind == Kind::rounded_hull;
+  }
   [[nodiscard]] bool has_rims() const { return !rims.empty(); }
   /// Of the rims, 0 without.
   [[nodiscard]] double rim_radius() const { return rims.empty() ? 0 : rims.front().radius; }

@@ -78,6 +78,14 @@ AssetPtr random_field(Random& random) {
   return HeightField::build(def).height_field;
 }
 
+AssetPtr rounded(const AssetPtr& hull, Random& random) {
+  const auto* sharp = dynamic_cast<const Hull*>(hull.get());
+  LKS_CHECK(sharp != nullptr);
+  const Length radius = random_size(random, 1_m);
+  const HullResult made = Hull::build(sharp->vertices(), HullOptions::rounded(radius, 128));
+  return made.ok() ? made.hull : hull;
+}
+
 std::vector<AssetPtr> random_assets(Random& random) {
   std::vector<AssetPtr> assets;
   const int hulls = random.between(0, 3);
@@ -87,6 +95,7 @@ std::vector<AssetPtr> random_assets(Random& random) {
       half[axis] = max(random_size(random, 3_m), Length::from_ratio(1, 100));
     const int points = random.between(8, 40);
     assets.push_back(scenes::random_hull(random, half, points));
+    if (chance(random, 3)) assets.back() = rounded(assets.back(), random);
   }
   if (chance(random, 2)) assets.push_back(scenes::dumbbell());
   if (chance(random, 3)) assets.push_back(scenes::chair());
@@ -108,13 +117,15 @@ Shape random_shape(Random& random, std::span<const AssetPtr> assets, bool with_r
   const Length z = random_size(random, most);
   if (!assets.empty() && chance(random, 3))
     return assets[random.below(static_cast<std::uint32_t>(assets.size()))]->shape();
-  if (with_rims && chance(random, 3)) switch (random.below(3)) {
+  if (with_rims && chance(random, 3)) switch (random.below(4)) {
       case 0:
         return Shape::cylinder(x, y);
       case 1:
         return Shape::cone(x, y);
-      default:
+      case 2:
         return Shape::tapered_capsule(x, y, z);
+      default:
+        return Shape::rounded_box(x, y, z, min(x, y));
     }
   switch (random.below(9)) {
     case 0:

@@ -169,10 +169,10 @@ bool is_flat_entered(const Body& body, const Real3& from, const Real3& way, doub
 
 double outside(const Body& body, const Real3& point) {
   if (body.kind == Kind::half_space) return dot(direction_of(real(body.rotation.y)), point);
-  if (body.kind == Kind::box) return outside_box(body, point);
+  if (body.is_box()) return outside_box(body, point) - body.radius;
   if (body.has_rims()) return outside_rims(body, point);
   if (body.is_tapered()) return outside_taper(body, point);
-  if (body.polytope != nullptr) return outside_polytope(body, point);
+  if (body.polytope != nullptr) return outside_polytope(body, point) - body.radius;
   return point_to_segment(point, body.core.front(), body.core.back()) - body.radius;
 }
 
@@ -182,7 +182,8 @@ double above_planes(const Body& body, const Real3& point) {
 }
 
 bool is_entered(const Body& body, const Real3& from, const Real3& way, double depth) {
-  if (body.has_rims() || body.is_tapered()) return is_form_entered(body, from, way, depth);
+  if (body.has_rims() || body.is_tapered() || body.is_rounded())
+    return is_form_entered(body, from, way, depth);
   if (body.radius > 0) {
     const Real3 &end = body.core.front(), &axis = body.core.back() - end;
     return segment_to_segment(from, way, end, axis) < body.radius - depth;

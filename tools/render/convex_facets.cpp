@@ -3,14 +3,32 @@
 #include <cmath>
 #include <vector>
 
+#include "core/geometry/convex/polytope_box.h"
+#include "core/geometry/convex/rounded_facets.h"
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/distance/cores/convex_core.h"
 #include "core/math/roots.h"
 
 namespace lockstone::render {
 
+std::shared_ptr<const Hull> hull_within(const geometry::Polytope& polytope) {
+  if (polytope.radius == Length{}) return nullptr;
+  std::vector<Vec3<Length>> points;
+  const geometry::RoundedFacets facets(polytope, geometry::FacetReach::surface);
+  facets.for_each([&](std::span<const geometry::RawVec> corners) {
+    for (const geometry::RawVec& corner : corners)
+      points.push_back(geometry::to_length(corner));
+  });
+  const HullResult built = Hull::build(points, {.max_vertices = 128});
+  return built.ok() ? built.hull : nullptr;
+}
+
 std::shared_ptr<const Hull> hull_within(const Shape& shape) {
   if (shape.kind <= ShapeKind::box || !is_primitive(shape.kind)) return nullptr;
+  if (shape.kind == ShapeKind::rounded_box) {
+    const geometry::BoxPolytope box(shape.size, shape.fourth_size());
+    return hull_within(box.view());
+  }
   const Mat3 still;
   geometry::ConvexCore core;
   geometry::make_core({shape, still}, core);

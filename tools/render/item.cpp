@@ -77,7 +77,7 @@ class Pieces final : public geometry::PartVisitor {
     item.solid.axes = place.axes;
     item.solid.size = to_vec(shape.size);
     item.solid.color = tinted(item.solid.color, surface);
-    const auto inner = polytope == nullptr ? hull_within(shape) : nullptr;
+    const auto inner = polytope == nullptr ? hull_within(shape) : hull_within(*polytope);
     if (inner != nullptr) polytope = inner->polytope();
     if (polytope != nullptr) {
       const bool flat = geometry::is_flat(*polytope);

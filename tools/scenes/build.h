@@ -58,6 +58,7 @@ extern const Scene k_commands;                                           // all_
 extern const Scene k_hulls, k_compounds;                                 // convex.cpp
 extern const Scene k_terrain, k_mesh;                                    // surfaces.cpp
 extern const Scene k_rollers, k_drums, k_cones, k_coins, k_clubs;        // rims.cpp
+extern const Scene k_dice, k_pebbles;                                    // rounded.cpp
 extern const Scene k_bullets;                                            // bullets.cpp
 extern const Scene k_layers;                                             // layers.cpp
 extern const Scene k_belts;                                              // belts.cpp

@@ -16,8 +16,8 @@ Length inner_radius_of(const geometry::Polytope& polytope) {
   std::int64_t least = geometry::fine(k_max_shape_size);
   for (const geometry::PolytopeFace& face : polytope.faces)
     least = std::min(least, face.offset - dot(face.normal, polytope.interior).raw);
-  return Length::from_raw(
-      static_cast<std::int32_t>(std::max<std::int64_t>(least, 0) >> geometry::k_fine_per_length));
+  return polytope.radius + Length::from_raw(static_cast<std::int32_t>(
+                               std::max<std::int64_t>(least, 0) >> geometry::k_fine_per_length));
 }
 
 }  // namespace
@@ -29,9 +29,13 @@ Length inner_radius_of(const Piece& piece) {
 ShrunkCore::ShrunkCore(const Piece& piece, Length depth, Unit share) : shape(piece.shape) {
   LKS_ASSERT(depth >= Length{} && share > Unit{} && share <= Unit::from_integer(1));
   if (piece.polytope != nullptr) {
-    move_vertices_inward(*piece.polytope, depth);
+    // The radius shrinks first.
+    const Length from_radius = min(depth, piece.polytope->radius);
+    move_vertices_inward(*piece.polytope, depth - from_radius);
+    polytope.radius = piece.polytope->radius - from_radius;
+    LKS_ASSERT(polytope.radius >= Length{});
   } else {
-    shape.size = geometry::traits_of(shape).shrunk(shape.size, depth);
+    shape = geometry::traits_of(shape).shrunk(shape, depth);
   }
   if (share != Unit::from_integer(1)) shorten(share);
 }
@@ -39,7 +43,7 @@ ShrunkCore::ShrunkCore(const Piece& piece, Length depth, Unit share) : shape(pie
 void ShrunkCore::shorten(Unit share) {
   LKS_ASSERT(share > Unit{} && share <= Unit::from_integer(1));
   if (!is_polytope) {
-    shape.size = geometry::traits_of(shape).shortened(shape.size, share);
+    shape = geometry::traits_of(shape).shortened(shape, share);
     return;
   }
   for (std::size_t i = 0; i < polytope.vertices.size(); ++i) {

@@ -30,11 +30,12 @@ WorldBox half_space_box(const PlacedShape& placed) {
 WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytope) {
   constexpr int k_bits = geometry::k_fine_bits - Position::frac_bits;
   constexpr Position k_rounding = Position::from_raw(1 << 13);
+  const geometry::Fine radius = geometry::fine(polytope.radius);
   WorldBox box;
   for (int i = 0; i < 3; ++i) {
     const Vec3<Unit> axis{placed.rotation.x[i], placed.rotation.y[i], placed.rotation.z[i]};
-    const geometry::Fine above = geometry::support_of(polytope, axis).height;
-    const geometry::Fine below = geometry::support_of(polytope, -axis).height;
+    const geometry::Fine above = geometry::support_of(polytope, axis).height + radius;
+    const geometry::Fine below = geometry::support_of(polytope, -axis).height + radius;
     LKS_ASSERT(above + below >= 0);
     box.lower[i] = placed.origin[i] - Position::from_raw(below >> k_bits) - k_rounding;
     box.upper[i] = placed.origin[i] + Position::from_raw(above >> k_bits) + k_rounding;

@@ -51,7 +51,8 @@ bool is_in_triangle(const geometry::Polytope& triangle, const Vec3<Length>& poin
 
 bool is_in_hull(const geometry::Polytope& hull, const Vec3<Length>& point) {
   for (const geometry::PolytopeFace& face : hull.faces)
-    if (lockstone::dot(face.normal, point).raw - face.offset > fine(k_seam_width)) return false;
+    if (lockstone::dot(face.normal, point).raw - face.offset > fine(hull.radius + k_seam_width))
+      return false;
   return true;
 }
 
@@ -60,15 +61,16 @@ bool holds(const Piece& piece, const Vec3<Length>& point) {
   if (piece.triangle.is_triangle) return is_in_triangle(*piece.polytope, point);
   if (piece.polytope != nullptr) return is_in_hull(*piece.polytope, point);
   if (piece.shape.kind == ShapeKind::half_space) return point.y <= k_seam_width;
-  return geometry::traits_of(piece.shape).holds(piece.shape.size, point, k_seam_width);
+  return geometry::traits_of(piece.shape).holds(piece.shape, point, k_seam_width);
 }
 
 /// How far the piece reaches from the origin of its frame along a unit vector of that frame.
 Fine reach_along(const Piece& piece, const Vec3<Unit>& axis) {
-  if (piece.polytope != nullptr) return geometry::support_of(*piece.polytope, axis).height;
+  if (piece.polytope != nullptr)
+    return geometry::support_of(*piece.polytope, axis).height + fine(piece.polytope->radius);
   const Shape& shape = piece.shape;
   if (shape.kind == ShapeKind::half_space) return are_alike(axis, Mat3{}.y) ? 0 : k_no_end;
-  return geometry::traits_of(shape).reach(shape.size, axis);
+  return geometry::traits_of(shape).reach(shape, axis);
 }
 
 /// How far the piece rises above the plane through the point with this normal.
@@ -86,10 +88,14 @@ Vec3<Unit> face_along(const Piece& piece, const Vec3<Unit>& axis) {
     const geometry::PolytopeFace* best = &piece.polytope->faces.front();
     for (const geometry::PolytopeFace& face : piece.polytope->faces)
       if (lockstone::dot(face.normal, axis) > lockstone::dot(best->normal, axis)) best = &face;
-    return best->normal;
+    // Where the surface is round, each direction is that of a face.
+    constexpr std::int64_t k_near = (std::int64_t{1} << 60) - (std::int64_t{1} << 49);
+    const bool is_round =
+        piece.polytope->radius > Length{} && lockstone::dot(best->normal, axis).raw < k_near;
+    return is_round ? axis : best->normal;
   }
   if (piece.shape.kind == ShapeKind::half_space) return Mat3{}.y;
-  return geometry::traits_of(piece.shape).face_along(piece.shape.size, axis);
+  return geometry::traits_of(piece.shape).face_along(piece.shape, axis);
 }
 
 /// Calls `f(piece)` for the pieces at a point, and for no other piece of an asset with triangles.

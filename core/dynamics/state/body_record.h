@@ -43,7 +43,7 @@ struct BodyRecord {
   Vec3<Velocity> velocity{};
   Vec3<Velocity> spin{};
   std::uint64_t user_data = 0;
-  AssetId asset{};  // Shape::asset
+  AssetId asset{};  // Shape::asset: also a rounded box' fourth size
   Quat orientation{{}, {}, {}, {}};
   Quat recycling_orientation{
       {}, {}, {}, {}};             // and place: where contacts are found, recycling_pose.h
@@ -76,10 +76,10 @@ struct BodyRecord {
   std::uint8_t flags = 0;        // BodyFlag
   std::int8_t scale_exponent = 0;
   std::int8_t inverse_mass_exponent = 0;
-  std::uint8_t locks = 0;        // BodyLock
+  std::uint8_t locks = 0;         // BodyLock
   std::uint16_t rest_ticks = 0;   // since it rests
   std::uint16_t still_ticks = 0;  // StillRules: since its island moved
-  SolverVelocity hit_speed{};    // EventSettings::hit_speed
+  SolverVelocity hit_speed{};     // EventSettings::hit_speed
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
 

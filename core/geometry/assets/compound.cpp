@@ -35,7 +35,7 @@ CompoundFault fault_of(const CompoundChild& child) {
   if (!is_primitive(child.shape.kind) && !hull) return CompoundFault::invalid_shape;
   if (validate(child.shape) != Status::ok) return CompoundFault::invalid_shape;
   const AssetId named = child.asset == nullptr ? AssetId{} : child.asset->id();
-  if (named != child.shape.asset) return CompoundFault::missing_asset;
+  if (named != child.shape.asset_id()) return CompoundFault::missing_asset;
   if (hull && child.asset->polytope() == nullptr) return CompoundFault::missing_asset;
   if (!has_direction(child.orientation)) return CompoundFault::invalid_orientation;
   if (child.density < k_min_density || child.density > k_max_density) {
@@ -124,7 +124,7 @@ CompoundChild decode_child(ByteReader& reader, const AssetSet& hulls) {
   const Surface surface = geometry::get_surface(reader);
   if (has_surface) child.surface = surface;
   for (const AssetPtr& hull : hulls.all()) {
-    if (hull->id() == child.shape.asset) child.asset = hull;
+    if (hull->id() == child.shape.asset_id()) child.asset = hull;
   }
   return child;
 }
@@ -237,7 +237,7 @@ Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
   std::vector<CompoundChild> children;
   for (std::uint32_t i = 0; i < count; ++i) {
     children.push_back(decode_child(reader, hulls));
-    if (!children.back().shape.asset.is_null() && children.back().asset == nullptr) {
+    if (!children.back().shape.asset_id().is_null() && children.back().asset == nullptr) {
       return Status::not_found;
     }
   }

@@ -6,6 +6,7 @@
 #include <lockstone/hull.h>
 
 #include "core/geometry/assets/asset_frame.h"
+#include "core/geometry/assets/hull_rounding.h"
 #include "core/geometry/convex/hull_faces.h"
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/polytope.h"
@@ -34,12 +35,16 @@ struct Hull::Data {
   geometry::Polytope polytope;
   LocalBounds bounds;
   geometry::Solid solid;
+  geometry::FacetCorrection facets;
   Length tolerance{};  // as asked for
+
+  bool round(Length radius, const std::vector<Loop>& loops);
 };
 
 namespace {
 
 constexpr std::uint16_t k_hull_version = 1;
+constexpr std::uint16_t k_rounded_hull_version = 2;  // ends with the radius
 
 using Points = std::vector<Vec3<Length>>;
 
@@ -51,11 +56,15 @@ void sort_unique(Points& points) {
 
 HullFault fault_of(std::span<const Vec3<Length>> points, const HullOptions& options) {
   const bool good_count = options.max_vertices >= 4 && options.max_vertices <= k_max_hull_vertices;
-  if (!good_count || options.tolerance < Length{}) return HullFault::invalid_options;
+  const Length radius = options.radius;
+  const bool good_radius =
+      radius == Length{} || (radius >= k_min_shape_size && radius <= k_max_shape_size &&
+                             geometry::hull_rounding() != nullptr);
+  if (!good_count || options.tolerance < Length{} || !good_radius)
+    return HullFault::invalid_options;
   if (points.size() > k_max_hull_points) return HullFault::too_many_points;
-  const auto is_inside = [](Length c) {
-    return c >= -k_max_asset_coordinate && c <= k_max_asset_coordinate;
-  };
+  const Length most = k_max_asset_coordinate - radius;
+  const auto is_inside = [most](Length c) { return c >= -most && c <= most; };
   for (const Vec3<Length>& p : points)
     if (!is_inside(p.x) || !is_inside(p.y) || !is_inside(p.z))
       return HullFault::coordinate_out_of_range;
@@ -165,13 +174,17 @@ Fine unevenness_of(const std::vector<Loop>& loops, const std::vector<PolytopeFac
   return most;
 }
 
-LocalBounds bounds_of(std::span<const Vec3<Length>> points) {
+LocalBounds bounds_of(std::span<const Vec3<Length>> points, Length radius) {
   LocalBounds bounds{points.front(), points.front()};
   for (const Vec3<Length>& point : points) {
     for (int axis = 0; axis < 3; ++axis) {
       bounds.lower[axis] = min(bounds.lower[axis], point[axis]);
       bounds.upper[axis] = max(bounds.upper[axis], point[axis]);
     }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    bounds.lower[axis] -= radius;
+    bounds.upper[axis] += radius;
   }
   return bounds;
 }
@@ -212,20 +225,40 @@ Length deviation_of(const std::vector<PolytopeFace>& faces, std::span<const Vec3
       static_cast<std::int32_t>((most + below_one) >> geometry::k_fine_per_length));
 }
 
-std::vector<std::byte> encode(std::span<const Vec3<Length>> vertices, Length tolerance) {
-  std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 6 + 12 * vertices.size());
+std::vector<std::byte> encode(std::span<const Vec3<Length>> vertices, Length tolerance,
+                              Length radius) {
+  const bool rounded = radius > Length{};
+  std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 6 + 12 * vertices.size() +
+                               (rounded ? 4 : 0));
   ByteWriter writer(bytes);
-  geometry::put_asset_header(writer, ShapeKind::hull, k_hull_version);
+  geometry::put_asset_header(writer, ShapeKind::hull,
+                             rounded ? k_rounded_hull_version : k_hull_version);
   writer.put(tolerance.raw);
   writer.put(static_cast<std::uint16_t>(vertices.size()));
   for (const Vec3<Length>& v : vertices)
     for (const Length c : {v.x, v.y, v.z})
       writer.put(c.raw);
+  if (rounded) writer.put(radius.raw);
   LKS_CHECK(writer.ok() && writer.size() == bytes.size());
   return bytes;
 }
 
 }  // namespace
+
+/// Surrounds the polytope by a radius; false when the solid becomes too large.
+bool Hull::Data::round(Length radius, const std::vector<Loop>& loops) {
+  polytope.radius = radius;
+  const geometry::HullRounding& rounding = *geometry::hull_rounding();
+  polytope.kernels = &rounding.kernels;
+  const auto rounded = rounding.solid_of(polytope);
+  if (!rounded) return false;
+  solid = *rounded;
+  solid.inner_radius = radius + ::lockstone::inner_radius(loops, faces, vertices, solid.centre);
+  polytope.interior = solid.centre;
+  facets = rounding.facets_of(polytope, solid.volume);
+  polytope.facets = &facets;
+  return true;
+}
 
 Hull::Hull(AssetId id, std::unique_ptr<const Data> data)
     : Asset(ShapeKind::hull, id), data_(std::move(data)) {}
@@ -249,34 +282,50 @@ HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& 
   data->solid.inner_radius =
       inner_radius(surface.faces, data->faces, data->vertices, solid->centre);
   data->edges = half_edges_of(surface.faces, data->vertices.size());
-  data->bounds = bounds_of(data->vertices);
+  data->bounds = bounds_of(data->vertices, options.radius);
   data->tolerance = options.tolerance;
   data->polytope = {data->vertices, data->faces, data->edges, solid->centre,
                     &geometry::polytope_kernels()};
   data->columns.fill(data->vertices, data->faces);
   data->polytope.wide = &data->columns.view();
   data->polytope.unevenness = unevenness_of(surface.faces, data->faces, data->vertices);
-  const AssetId id = geometry::id_of(encode(data->vertices, options.tolerance));
+  if (options.radius > Length{} && !data->round(options.radius, surface.faces))
+    return {nullptr, HullFault::too_large, {}};
+  const AssetId id = geometry::id_of(encode(data->vertices, options.tolerance, options.radius));
   const Length deviation = deviation_of(data->faces, points);
   return {std::shared_ptr<const Hull>(new Hull(id, std::move(data))), HullFault::none, deviation};
 }
 
 Result<std::shared_ptr<const Hull>> Hull::from_bytes(ByteView bytes) {
   ByteReader reader(bytes);
-  const Status head = geometry::read_asset_header(reader, ShapeKind::hull, k_hull_version);
+  Status head = geometry::read_asset_header(reader, ShapeKind::hull, k_hull_version);
+  const bool rounded = head == Status::unsupported_version;
+  if (rounded) {
+    reader = ByteReader(bytes);
+    head = geometry::read_asset_header(reader, ShapeKind::hull, k_rounded_hull_version);
+    if (geometry::hull_rounding() == nullptr) return Status::unsupported_version;
+  }
   if (head != Status::ok) return head;
+  const std::size_t tail = rounded ? 4 : 0;
   const auto tolerance = Length::from_raw(reader.get<std::int32_t>());
   const std::size_t count = reader.get<std::uint16_t>();
-  if (!reader.ok() || reader.remaining() < 12 * count) return Status::truncated;
-  if (reader.remaining() > 12 * count || count > k_max_hull_vertices) return Status::malformed;
+  if (!reader.ok() || reader.remaining() < 12 * count + tail) return Status::truncated;
+  if (reader.remaining() > 12 * count + tail || count > k_max_hull_vertices)
+    return Status::malformed;
   Points vertices(count);
   for (Vec3<Length>& v : vertices)
     for (int axis = 0; axis < 3; ++axis)
       v[axis].raw = reader.get<std::int32_t>();
-  HullResult result = build(vertices, {tolerance, k_max_hull_vertices});
+  const auto radius = Length::from_raw(rounded ? reader.get<std::int32_t>() : 0);
+  if (rounded && radius == Length{}) return Status::malformed;
+  HullResult result = build(vertices, {tolerance, k_max_hull_vertices, radius});
   const bool same = result.ok() && std::ranges::equal(result.hull->vertices(), vertices);
   if (!same) return Status::malformed;
   return std::move(result.hull);
+}
+
+Length Hull::radius() const {
+  return data_->polytope.radius;
 }
 
 std::span<const Vec3<Length>> Hull::vertices() const {
@@ -298,7 +347,7 @@ std::vector<int> Hull::face_vertices(int face) const {
 }
 
 std::vector<std::byte> Hull::canonical_bytes() const {
-  return encode(data_->vertices, data_->tolerance);
+  return encode(data_->vertices, data_->tolerance, data_->polytope.radius);
 }
 
 const LocalBounds& Hull::bounds() const {

@@ -28,6 +28,7 @@ Result<AssetPtr> load_asset(ByteView canonical, const AssetSet& known) {
   if (magic != geometry::k_asset_magic) return Status::malformed;
   switch (kind) {
     case ShapeKind::hull:
+      (void)HullOptions::rounded({});  // links rounded ones
       return as_asset(Hull::from_bytes(canonical));
     case ShapeKind::mesh:
       return as_asset(Mesh::from_bytes(canonical));

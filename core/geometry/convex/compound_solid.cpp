@@ -108,7 +108,7 @@ SymMat3<std::int64_t> mean_tensor(Solids solids, const Weights& weights, const R
 
 Solid solid_of(const Shape& primitive) {
   Solid solid;
-  solid.volume = traits_of(primitive).volume(primitive.size);
+  solid.volume = traits_of(primitive).volume(primitive);
   const Vec3<Unit> inertia = normalized_inertia(primitive);
   solid.inertia = {to_moment(inertia.x), to_moment(inertia.y), to_moment(inertia.z)};
   solid.scale_exponent = scale_exponent(primitive);

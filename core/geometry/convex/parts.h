@@ -25,7 +25,7 @@ struct LocalBounds {
          b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-/// The bounds of a polytope's vertices.
+/// The bounds of a polytope's vertices and its radius.
 [[nodiscard]] constexpr LocalBounds bounds_of(const Polytope& polytope) {
   LocalBounds bounds{polytope.vertices.front(), polytope.vertices.front()};
   for (const Vec3<Length>& v : polytope.vertices) {
@@ -33,6 +33,10 @@ struct LocalBounds {
       bounds.lower[i] = min(bounds.lower[i], v[i]);
       bounds.upper[i] = max(bounds.upper[i], v[i]);
     }
+  }
+  for (int i = 0; i < 3; ++i) {
+    bounds.lower[i] -= polytope.radius;
+    bounds.upper[i] += polytope.radius;
   }
   return bounds;
 }

@@ -41,6 +41,14 @@ struct PolytopeLanes {
   const Fine* offsets = nullptr;
 };
 
+/// Takes the volume of a rounded polytope's facets to its own, and their centre to its centre
+/// of mass: see `part_below`.
+struct FacetCorrection {
+  std::int64_t volume = std::int64_t{1} << 30;  ///< the solid's over the facets', 30 bits
+  std::array<std::int64_t, 3>
+      centre{};  ///< of the facets, from the centre of mass, of the scale, 48 bits
+};
+
 /// A view; the data it points to must outlive it. All in the shape's own frame.
 struct Polytope {
   std::span<const Vec3<Length>> vertices;
@@ -51,8 +59,10 @@ struct Polytope {
   /// Of a flat one that is the surface of a solid: only face 0 pushes, and a shape whose centre is
   /// behind that face does not collide at all.
   bool one_sided = false;
-  Fine unevenness = 0;                  ///< how far a vertex may lie below a face that it is around
-  const PolytopeLanes* wide = nullptr;  ///< null: few enough to be read one by one
+  Fine unevenness = 0;  ///< how far a vertex may lie below a face that it is around
+  Length radius{};      ///< by which the shape surrounds the polytope
+  const FacetCorrection* facets = nullptr;  ///< of rounded hulls
+  const PolytopeLanes* wide = nullptr;      ///< null: few enough to be read one by one
 };
 
 /// Whether faces were merged so roughly that their planes, and the arcs between them, differ from

@@ -41,7 +41,7 @@ constexpr std::array<HalfEdge, k_edges> k_box_edges = make_edges();
 
 }  // namespace
 
-BoxPolytope::BoxPolytope(const Vec3<Length>& half_extents) {
+BoxPolytope::BoxPolytope(const Vec3<Length>& half_extents, Length radius) : radius_(radius) {
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       const bool negative = (i >> axis & 1) != 0;
@@ -58,7 +58,7 @@ BoxPolytope::BoxPolytope(const Vec3<Length>& half_extents) {
 }
 
 Polytope BoxPolytope::view() const {
-  return {vertices_, faces_, k_box_edges, {}, nullptr};
+  return {vertices_, faces_, k_box_edges, {}, nullptr, false, 0, radius_, nullptr};
 }
 
 }  // namespace lockstone::geometry

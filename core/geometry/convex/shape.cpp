@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <lockstone/shape.h>
 
 #include "core/geometry/convex/shape_traits.h"
@@ -12,14 +14,19 @@ constexpr bool is_size(Length x) {
 }  // namespace
 
 Status validate(const Shape& shape) {
-  if (is_asset(shape.kind) == shape.asset.is_null()) return Status::invalid_argument;
+  if (!has_fourth_size(shape.kind) && is_asset(shape.kind) == shape.asset.is_null())
+    return Status::invalid_argument;
   const geometry::ShapeTraits* traits = geometry::find_traits(shape.kind);
   if (traits == nullptr && is_primitive(shape.kind)) return Status::invalid_argument;
-  const int used = traits == nullptr ? 0 : traits->size_count;
+  const int used = traits == nullptr ? 0 : std::min(traits->size_count, 3);
   for (int i = 0; i < 3; ++i) {
     const bool good = i < used ? is_size(shape.size[i]) : shape.size[i] == Length{};
     if (!good) return Status::invalid_argument;
   }
+  if (!has_fourth_size(shape.kind)) return Status::ok;
+  const Length most = k_max_shape_size - max(max(shape.size.x, shape.size.y), shape.size.z);
+  const Length fourth = shape.fourth_size();
+  if (!is_size(fourth) || fourth > most) return Status::invalid_argument;
   return Status::ok;
 }
 

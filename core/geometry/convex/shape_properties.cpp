@@ -17,20 +17,20 @@ Length root_up(std::uint64_t squares) {
 }  // namespace geometry
 
 Length bounding_radius(const Shape& shape) {
-  return geometry::traits_of(shape).bounding_radius(shape.size);
+  return geometry::traits_of(shape).bounding_radius(shape);
 }
 
 Length inner_radius(const Shape& shape) {
-  return geometry::traits_of(shape).inner_radius(shape.size);
+  return geometry::traits_of(shape).inner_radius(shape);
 }
 
 Vec3<Length> world_half_extents(const Shape& shape, const Mat3& rotation) {
-  return geometry::traits_of(shape).half_extents(shape.size, rotation);
+  return geometry::traits_of(shape).half_extents(shape, rotation);
 }
 
 Mass mass_of(const Shape& shape, Density density) {
   LKS_ASSERT(density.raw >= 0);
-  return geometry::traits_of(shape).mass(shape.size, density);
+  return geometry::traits_of(shape).mass(shape, density);
 }
 
 int scale_exponent(const Shape& shape) {
@@ -44,6 +44,7 @@ Vec3<Unit> normalized_inertia(const Shape& shape) {
   geometry::ScaledSizes sizes;
   for (int i = 0; i < 3; ++i)
     sizes[static_cast<std::size_t>(i)] = geometry::raw_of(shape.size[i]) << shift;
+  sizes[3] = geometry::raw_of(shape.fourth_size()) << shift;
   return geometry::traits_of(shape).inertia(sizes);
 }
 

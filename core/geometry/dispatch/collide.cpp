@@ -67,8 +67,11 @@ Manifold collide_primitives(const PosedShape& a, const PosedShape& b, const Vec3
 Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                          Length margin) {
   if (a.shape.kind <= ShapeKind::box) return collide_primitives(a, b, offset, margin);
-  if (a.shape.kind == ShapeKind::half_space)
-    return geometry::collide_half_space(a, b, offset, margin);
+  if (a.shape.kind == ShapeKind::half_space) {
+    const bool rounded = b.polytope != nullptr && b.polytope->radius > Length{};
+    return rounded ? b.polytope->kernels->collide(a, b, offset, margin)
+                   : geometry::collide_half_space(a, b, offset, margin);
+  }
   if (a.polytope == nullptr) return geometry::traits_of(a.shape).collide(a, b, offset, margin);
   return a.polytope->kernels->collide(a, b, offset, margin);
 }

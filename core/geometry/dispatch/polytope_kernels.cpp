@@ -9,6 +9,8 @@ namespace {
 
 Manifold collide_polytope(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                           Length margin) {
+  if (b.polytope != nullptr && b.polytope->radius > Length{})
+    return b.polytope->kernels->collide(a, b, offset, margin);
   if (b.shape.kind == ShapeKind::sphere) return collide_polytope_sphere(a, b, offset, margin);
   if (b.shape.kind == ShapeKind::capsule) return collide_polytope_capsule(a, b, offset, margin);
   if (b.polytope == nullptr && b.shape.kind != ShapeKind::box)

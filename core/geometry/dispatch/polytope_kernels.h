@@ -8,7 +8,8 @@
 namespace lockstone::geometry {
 
 struct PolytopeKernels {
-  /// As `lockstone::collide`; `a` is a polytope, `b` a primitive or polytope.
+  /// As `lockstone::collide`; `a` is a polytope, `b` a primitive or polytope. Of polytopes with a
+  /// radius, either of the two is one, and `a` may be a half-space.
   Manifold (*collide)(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                       Length margin);
   /// As `lockstone::cast_ray`.
@@ -16,7 +17,7 @@ struct PolytopeKernels {
                           const Vec3<Length>& origin, const Vec3<Length>& translation);
 };
 
-/// The one table.
+/// That of polytopes without a radius; others have `hull_rounding`.
 [[nodiscard]] const PolytopeKernels& polytope_kernels();
 
 }  // namespace lockstone::geometry

@@ -32,7 +32,8 @@ void add_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length
 
 /// Whether `ManifoldPoint` puts the anchors of a contact with a flat shape on this one's surface.
 [[nodiscard]] constexpr bool is_round(const Shape& shape) {
-  return is_primitive(shape.kind) && shape.kind != ShapeKind::box;
+  return is_primitive(shape.kind) && shape.kind != ShapeKind::box &&
+         shape.kind != ShapeKind::rounded_box;
 }
 
 /// The same where B is round and A is not.

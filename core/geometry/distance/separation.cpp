@@ -16,8 +16,9 @@ constexpr int k_relative_slack_bits = 26;
 /// How far the shape reaches from its centre along a unit axis. Half-spaces have no reach.
 Fine reach_along(const PosedShape& posed, const Vec3<Unit>& axis) {
   const Vec3<Unit> n = rotate_inverse(posed.rotation, axis);
-  if (posed.polytope != nullptr) return geometry::support_of(*posed.polytope, n).height;
-  return geometry::traits_of(posed.shape).reach(posed.shape.size, n);
+  if (posed.polytope != nullptr)
+    return geometry::support_of(*posed.polytope, n).height + geometry::fine(posed.polytope->radius);
+  return geometry::traits_of(posed.shape).reach(posed.shape, n);
 }
 
 /// A contact on a merged face is nearer than the vertices by up to this: above each point of the

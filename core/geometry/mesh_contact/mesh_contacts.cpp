@@ -134,7 +134,7 @@ class GhostTest {
 Manifold turned_to_face(const TriangleContact& contact, const Vec3<Unit>& world_normal,
                         const MeshContactFrame& frame) {
   const FacePlane plane(contact.vertices, contact.face_normal);
-  const Length radius = core_radius(frame.shape.shape);
+  const Length radius = core_radius(frame.shape);
   const RawVec roll = along(contact.manifold.normal - world_normal, radius);
   Manifold turned;
   turned.normal = world_normal;
@@ -179,9 +179,10 @@ Displacement least_separation(const Manifold& manifold) {
   return least;
 }
 
-Length core_radius(const Shape& shape) {
-  const ShapeTraits* traits = find_traits(shape.kind);
-  return traits != nullptr && traits->has_core_radius ? shape.size.x : Length{};
+Length core_radius(const PosedShape& posed) {
+  if (posed.polytope != nullptr) return posed.polytope->radius;
+  const ShapeTraits& traits = traits_of(posed.shape);
+  return traits.core_radius != nullptr ? traits.core_radius(posed.shape) : Length{};
 }
 
 RawVec witness_on_b(const Manifold& manifold, const ManifoldPoint& point, const Shape& b,

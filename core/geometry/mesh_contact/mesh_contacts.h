@@ -106,8 +106,8 @@ void merge_planes(std::span<const TriangleContact> contacts, const MeshContactFr
 [[nodiscard]] RawVec witness_on_b(const Manifold& manifold, const ManifoldPoint& point,
                                   const Shape& b, const Vec3<Length>& offset);
 
-/// The radius by which B surrounds its core: of spheres and capsules.
-[[nodiscard]] Length core_radius(const Shape& shape);
+/// The radius by which a shape surrounds its core, 0 of shapes with edges.
+[[nodiscard]] Length core_radius(const PosedShape& posed);
 
 /// The coordinates of a world vector along the columns of `m`, each rounded thrice.
 [[nodiscard]] constexpr RawVec along_columns(const Mat3& m, const RawVec& v) {

@@ -26,7 +26,7 @@ std::optional<std::uint32_t> polytope_vertex(const Polytope& polytope, const Raw
 /// Which vertex of the shape a point of its core is at, if any. The core of a sphere is one point.
 std::optional<std::uint32_t> vertex_of(const PosedShape& posed, const RawVec& core) {
   if (posed.polytope != nullptr) return polytope_vertex(*posed.polytope, core);
-  return traits_of(posed.shape).vertex_at(posed.shape.size, core);
+  return traits_of(posed.shape).vertex_at(posed.shape, core);
 }
 
 std::uint32_t foreign_feature(std::uint32_t part, std::uint32_t feature) {
@@ -38,7 +38,7 @@ std::uint32_t feature_of(const TriangleContact& contact, const ManifoldPoint& po
   const PosedShape& posed = frame.shape;
   const RawVec on_b =
       witness_on_b(contact.manifold, point, posed.shape, frame.offset) - fine(frame.offset);
-  const RawVec core = on_b + along(contact.manifold.normal, core_radius(posed.shape));
+  const RawVec core = on_b + along(contact.manifold.normal, core_radius(posed));
   const auto vertex = vertex_of(posed, along_columns(posed.rotation, core));
   return vertex ? *vertex : foreign_feature(contact.part, point.feature);
 }
@@ -192,7 +192,7 @@ class CoreVertices {
         add(fine(v));
     } else {
       std::array<RawVec, 8> vertices;
-      const int count = traits_of(shape).vertices(shape.size, vertices);
+      const int count = traits_of(shape).vertices(shape, vertices);
       for (int i = 0; i < count; ++i)
         add(vertices[static_cast<std::size_t>(i)]);
     }
@@ -203,7 +203,7 @@ class CoreVertices {
   void add_over(const TriangleContact& contact, Add&& add) const {
     const FacePlane plane(contact.vertices, contact.face_normal);
     const Vec3<Unit>& normal = contact.manifold.normal;
-    const Length radius = core_radius(frame_.shape.shape);
+    const Length radius = core_radius(frame_.shape);
     for (std::size_t i = 0; i < count_; ++i) {
       const Fine separation = plane.height(local_[i]) - fine(radius);
       if (!keeps(separation, frame_.margin) || !plane.has_beside(local_[i])) continue;

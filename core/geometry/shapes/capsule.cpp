@@ -16,19 +16,15 @@ UInt128 capsule_product(const Sizes& size) {
   return multiply_wide(square(raw_of(size.x)), heights);
 }
 
-Length capsule_reach_radius(const Sizes& size) {
-  return size.x + size.y;
+Length capsule_reach_radius(const Shape& shape) {
+  return shape.size.x + shape.size.y;
 }
 
-Length capsule_inner_radius(const Sizes& size) {
-  return size.x;
-}
-
-Sizes capsule_extents(const Sizes& size, const Mat3& rotation) {
+Sizes capsule_extents(const Shape& shape, const Mat3& rotation) {
   Sizes result;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t core = (abs(rotation.y[axis]) * size.y).raw;
-    result[axis] = rounded_up(core + (Unit::from_integer(1) * size.x).raw);
+    const std::int64_t core = (abs(rotation.y[axis]) * shape.size.y).raw;
+    result[axis] = rounded_up(core + (Unit::from_integer(1) * shape.size.x).raw);
   }
   return result;
 }
@@ -48,29 +44,30 @@ Vec3<Unit> capsule_inertia(const ScaledSizes& size) {
   return {moment(across), moment(axial), moment(across)};
 }
 
-Fine capsule_reach(const Sizes& size, const Vec3<Unit>& n) {
-  return fine(size.x) + (abs(n.y) * size.y).raw;
+Fine capsule_reach(const Shape& shape, const Vec3<Unit>& n) {
+  return fine(shape.size.x) + (abs(n.y) * shape.size.y).raw;
 }
 
 /// The nearest point of the core is the ball's centre.
-bool capsule_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
-  const Vec3<Length> from_core{point.x, point.y - clamp(point.y, -size.y, size.y), point.z};
-  return is_in_ball(from_core, size.x + slack);
+bool capsule_holds(const Shape& shape, const Vec3<Length>& point, Length slack) {
+  const Vec3<Length> from_core{point.x, point.y - clamp(point.y, -shape.size.y, shape.size.y),
+                               point.z};
+  return is_in_ball(from_core, shape.size.x + slack);
 }
 
-std::optional<std::uint32_t> capsule_vertex_at(const Sizes& size, const RawVec& point) {
-  if (!is_at(magnitude_of(point.y), fine(size.y))) return std::nullopt;
+std::optional<std::uint32_t> capsule_vertex_at(const Shape& shape, const RawVec& point) {
+  if (!is_at(magnitude_of(point.y), fine(shape.size.y))) return std::nullopt;
   return point.y > 0 ? 1U : 0U;
 }
 
-int capsule_vertices(const Sizes& size, std::array<RawVec, 8>& out) {
-  out[0] = {0, -fine(size.y), 0};
-  out[1] = {0, fine(size.y), 0};
+int capsule_vertices(const Shape& shape, std::array<RawVec, 8>& out) {
+  out[0] = {0, -fine(shape.size.y), 0};
+  out[1] = {0, fine(shape.size.y), 0};
   return 2;
 }
 
-Sizes capsule_shortened(const Sizes& size, Unit share) {
-  return {size.x, rounded<Length>(size.y * share), {}};
+Shape capsule_shortened(const Shape& shape, Unit share) {
+  return resized(shape, {shape.size.x, rounded<Length>(shape.size.y * share), {}});
 }
 
 void capsule_core(const PosedShape& shape, ConvexCore& core) {
@@ -80,19 +77,23 @@ void capsule_core(const PosedShape& shape, ConvexCore& core) {
 
 }  // namespace
 
-Mass ball_swept_mass(const Sizes& size, Density density) {
-  return mass_with_factor(capsule_product(size), density, k_two_thirds_pi, 61);
+Length ball_swept_radius(const Shape& shape) {
+  return shape.size.x;
 }
 
-BlockFloat ball_swept_volume(const Sizes& size) {
-  return volume_with_factor(capsule_product(size), k_two_thirds_pi, 61);
+Mass ball_swept_mass(const Shape& shape, Density density) {
+  return mass_with_factor(capsule_product(shape.size), density, k_two_thirds_pi, 61);
 }
 
-Sizes ball_swept_shrunk(const Sizes& size, Length depth) {
-  return {size.x - depth, size.y, {}};
+BlockFloat ball_swept_volume(const Shape& shape) {
+  return volume_with_factor(capsule_product(shape.size), k_two_thirds_pi, 61);
 }
 
-Vec3<Unit> round_face_along(const Sizes& /*size*/, const Vec3<Unit>& axis) {
+Shape ball_swept_shrunk(const Shape& shape, Length depth) {
+  return resized(shape, {shape.size.x - depth, shape.size.y, {}});
+}
+
+Vec3<Unit> round_face_along(const Shape& /*shape*/, const Vec3<Unit>& axis) {
   return axis;
 }
 
@@ -108,9 +109,9 @@ bool is_in_ball(const Vec3<Length>& from_centre, Length radius) {
 const ShapeTraits k_capsule{
     .size_names = {"radius", "half_height", ""},
     .size_count = 2,
-    .has_core_radius = true,
+    .core_radius = ball_swept_radius,
     .bounding_radius = capsule_reach_radius,
-    .inner_radius = capsule_inner_radius,
+    .inner_radius = ball_swept_radius,
     .half_extents = capsule_extents,
     .mass = ball_swept_mass,
     .volume = ball_swept_volume,

@@ -43,42 +43,45 @@ SideNormal cone_side(const Sizes& size) {
 }
 
 /// max(3h/4, √(r² + h²/16)).
-Length cone_bounding_radius(const Sizes& size) {
-  const std::uint64_t quarter = (raw_of(size.y) + 3) / 4;
-  return max(Length::from_raw(static_cast<std::int32_t>(raw_of(size.y) - raw_of(size.y) / 4)),
-             root_up(square(raw_of(size.x)) + square(quarter)));
+Length cone_bounding_radius(const Shape& shape) {
+  const std::uint64_t quarter = (raw_of(shape.size.y) + 3) / 4;
+  return max(
+      Length::from_raw(static_cast<std::int32_t>(raw_of(shape.size.y) - raw_of(shape.size.y) / 4)),
+      root_up(square(raw_of(shape.size.x)) + square(quarter)));
 }
 
 /// min(h/4, 3/4 · h r / √(h² + r²)), rounded down.
-Length cone_inner_radius(const Sizes& size) {
-  const std::int64_t side = (3 * (cone_side(size).out * size.x).raw / 4) >> Unit::frac_bits;
-  return max(
-      min(size.y / 4, Length::from_raw(static_cast<std::int32_t>(side)) - Length::from_raw(1)),
-      Length::from_raw(1));
+Length cone_inner_radius(const Shape& shape) {
+  const std::int64_t side =
+      (3 * (cone_side(shape.size).out * shape.size.x).raw / 4) >> Unit::frac_bits;
+  return max(min(shape.size.y / 4,
+                 Length::from_raw(static_cast<std::int32_t>(side)) - Length::from_raw(1)),
+             Length::from_raw(1));
 }
 
-Fine cone_reach(const Sizes& size, const Vec3<Unit>& n) {
-  const Fine apex = scaled(cone_apex_height(size), n.y.raw);
-  const Fine rim = scaled(cone_base_height(size), n.y.raw) + rim_reach(size.x, n.x, n.z);
+Fine cone_reach(const Shape& shape, const Vec3<Unit>& n) {
+  const Fine apex = scaled(cone_apex_height(shape.size), n.y.raw);
+  const Fine rim =
+      scaled(cone_base_height(shape.size), n.y.raw) + rim_reach(shape.size.x, n.x, n.z);
   return std::max(apex, rim);
 }
 
-Sizes cone_extents(const Sizes& size, const Mat3& rotation) {
+Sizes cone_extents(const Shape& shape, const Mat3& rotation) {
   Sizes result;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3<Unit> n{rotation.x[axis], rotation.y[axis], rotation.z[axis]};
-    const Fine reach = std::max(cone_reach(size, n), cone_reach(size, -n));
-    result[axis] = rounded_up(reach + size.x.raw + 2);  // the rounding of root and products
+    const Fine reach = std::max(cone_reach(shape, n), cone_reach(shape, -n));
+    result[axis] = rounded_up(reach + shape.size.x.raw + 2);  // the rounding of root and products
   }
   return result;
 }
 
-Mass cone_mass(const Sizes& size, Density density) {
-  return mass_with_factor(cone_product(size), density, k_third_pi, 61);
+Mass cone_mass(const Shape& shape, Density density) {
+  return mass_with_factor(cone_product(shape.size), density, k_third_pi, 61);
 }
 
-BlockFloat cone_volume(const Sizes& size) {
-  return volume_with_factor(cone_product(size), k_third_pi, 61);
+BlockFloat cone_volume(const Shape& shape) {
+  return volume_with_factor(cone_product(shape.size), k_third_pi, 61);
 }
 
 /// About the axis 3r²/10, across it 3r²/20 + 3h²/80.
@@ -89,12 +92,12 @@ Vec3<Unit> cone_inertia(const ScaledSizes& size) {
   return {across, moment_share(3 * rr, 10), across};
 }
 
-bool cone_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
+bool cone_holds(const Shape& shape, const Vec3<Length>& point, Length slack) {
   const Fine height = fine(point.y);
-  if (height < cone_base_height(size) - fine(slack)) return false;
-  const SideNormal side = cone_side(size);
+  if (height < cone_base_height(shape.size) - fine(slack)) return false;
+  const SideNormal side = cone_side(shape.size);
   const Fine beyond = (distance_from_axis(point) * side.out).raw +
-                      scaled(height - cone_apex_height(size), side.up.raw);
+                      scaled(height - cone_apex_height(shape.size), side.up.raw);
   return beyond <= fine(slack);
 }
 
@@ -106,9 +109,9 @@ bool shows_base(const Sizes& size, const Vec3<Unit>& n) {
   return -(std::int64_t{n.y.raw} << Unit::frac_bits) > along_side;
 }
 
-Vec3<Unit> cone_face_along(const Sizes& size, const Vec3<Unit>& axis) {
-  if (shows_base(size, axis)) return -Mat3{}.y;
-  const SideNormal side = cone_side(size);
+Vec3<Unit> cone_face_along(const Shape& shape, const Vec3<Unit>& axis) {
+  if (shows_base(shape.size, axis)) return -Mat3{}.y;
+  const SideNormal side = cone_side(shape.size);
   Vec3<Unit> flat = direction_of(axis.x.raw, 0, axis.z.raw);
   if (flat == Vec3<Unit>{}) flat.x = Unit::from_integer(1);  // at the apex all sides are alike
   return {rounded<Unit>(flat.x * side.out), side.up, rounded<Unit>(flat.z * side.out)};
@@ -123,15 +126,15 @@ void cone_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& 
 }
 
 /// A smaller cone of the same form about the same centre of mass.
-Sizes cone_scaled(const Sizes& size, Unit share) {
-  return {rounded<Length>(size.x * share), rounded<Length>(size.y * share), {}};
+Shape cone_scaled(const Shape& shape, Unit share) {
+  return resized(shape, scaled_sizes(shape.size, share));
 }
 
-Sizes cone_shrunk(const Sizes& size, Length depth) {
-  const Length inner = cone_inner_radius(size);
+Shape cone_shrunk(const Shape& shape, Length depth) {
+  const Length inner = cone_inner_radius(shape);
   const Length left = inner - min(depth, inner);
-  return cone_scaled(size, Unit::from_raw(static_cast<std::int32_t>(
-                               (std::int64_t{left.raw} << Unit::frac_bits) / inner.raw)));
+  return cone_scaled(shape, Unit::from_raw(static_cast<std::int32_t>(
+                                (std::int64_t{left.raw} << Unit::frac_bits) / inner.raw)));
 }
 
 void cone_core(const PosedShape& shape, ConvexCore& core) {
@@ -164,7 +167,6 @@ ShapeRayHit cone_ray(const Shape& shape, const Mat3& rotation, const Vec3<Length
 const ShapeTraits k_cone{
     .size_names = {"radius", "height", ""},
     .size_count = 2,
-    .has_core_radius = false,
     .bounding_radius = cone_bounding_radius,
     .inner_radius = cone_inner_radius,
     .half_extents = cone_extents,

@@ -16,33 +16,33 @@ UInt128 cylinder_product(const Sizes& size) {
   return multiply_wide(square(raw_of(size.x)), 2 * raw_of(size.y));
 }
 
-Length cylinder_bounding_radius(const Sizes& size) {
-  return root_up(norm_squared(size));
+Length cylinder_bounding_radius(const Shape& shape) {
+  return root_up(norm_squared(shape.size));
 }
 
-Length cylinder_inner_radius(const Sizes& size) {
-  return min(size.x, size.y);
+Length cylinder_inner_radius(const Shape& shape) {
+  return min(shape.size.x, shape.size.y);
 }
 
-Fine cylinder_reach(const Sizes& size, const Vec3<Unit>& n) {
-  return (size.y * abs(n.y)).raw + rim_reach(size.x, n.x, n.z);
+Fine cylinder_reach(const Shape& shape, const Vec3<Unit>& n) {
+  return (shape.size.y * abs(n.y)).raw + rim_reach(shape.size.x, n.x, n.z);
 }
 
-Sizes cylinder_extents(const Sizes& size, const Mat3& rotation) {
+Sizes cylinder_extents(const Shape& shape, const Mat3& rotation) {
   Sizes result;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3<Unit> n{rotation.x[axis], rotation.y[axis], rotation.z[axis]};
-    result[axis] = rounded_up(cylinder_reach(size, n) + size.x.raw);  // the root's rounding
+    result[axis] = rounded_up(cylinder_reach(shape, n) + shape.size.x.raw);  // the root's rounding
   }
   return result;
 }
 
-Mass cylinder_mass(const Sizes& size, Density density) {
-  return mass_with_factor(cylinder_product(size), density, k_pi, 61);
+Mass cylinder_mass(const Shape& shape, Density density) {
+  return mass_with_factor(cylinder_product(shape.size), density, k_pi, 61);
 }
 
-BlockFloat cylinder_volume(const Sizes& size) {
-  return volume_with_factor(cylinder_product(size), k_pi, 61);
+BlockFloat cylinder_volume(const Shape& shape) {
+  return volume_with_factor(cylinder_product(shape.size), k_pi, 61);
 }
 
 /// About the axis r²/2, across it r²/4 + h²/3.
@@ -52,8 +52,8 @@ Vec3<Unit> cylinder_inertia(const ScaledSizes& size) {
   return {across, moment_share(rr, 2), across};
 }
 
-bool cylinder_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
-  return abs(point.y) <= size.y + slack && distance_from_axis(point) <= size.x + slack;
+bool cylinder_holds(const Shape& shape, const Vec3<Length>& point, Length slack) {
+  return abs(point.y) <= shape.size.y + slack && distance_from_axis(point) <= shape.size.x + slack;
 }
 
 Disc cylinder_end(const Sizes& size, int sign) {
@@ -65,7 +65,7 @@ bool shows_end(const Vec3<Unit>& n) {
   return std::int64_t{2} * (n.y * n.y).raw > std::int64_t{1} << 60;
 }
 
-Vec3<Unit> cylinder_face_along(const Sizes& /*size*/, const Vec3<Unit>& axis) {
+Vec3<Unit> cylinder_face_along(const Shape& /*shape*/, const Vec3<Unit>& axis) {
   if (shows_end(axis)) return signed_axis(Mat3{}.y, sign_of(axis.y.raw));
   return direction_of(axis.x.raw, 0, axis.z.raw);
 }
@@ -81,16 +81,16 @@ void cylinder_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeatu
   out.add(deepest_of(shape, cylinder_end(size, 1), n), k_second_disc + k_disc_deepest);
 }
 
-Shape cylinder_with_round_ends(const Sizes& size) {
-  return Shape::capsule(size.y, size.x);
+Shape cylinder_with_round_ends(const Shape& shape) {
+  return Shape::capsule(shape.size.y, shape.size.x);
 }
 
-Sizes cylinder_shrunk(const Sizes& size, Length depth) {
-  return {size.x - depth, size.y - depth, {}};
+Shape cylinder_shrunk(const Shape& shape, Length depth) {
+  return resized(shape, {shape.size.x - depth, shape.size.y - depth, {}});
 }
 
-Sizes cylinder_shortened(const Sizes& size, Unit share) {
-  return {rounded<Length>(size.x * share), rounded<Length>(size.y * share), {}};
+Shape cylinder_shortened(const Shape& shape, Unit share) {
+  return resized(shape, scaled_sizes(shape.size, share));
 }
 
 void cylinder_core(const PosedShape& shape, ConvexCore& core) {
@@ -127,7 +127,6 @@ ShapeRayHit cylinder_ray(const Shape& shape, const Mat3& rotation, const Vec3<Le
 const ShapeTraits k_cylinder{
     .size_names = {"radius", "half_height", ""},
     .size_count = 2,
-    .has_core_radius = false,
     .bounding_radius = cylinder_bounding_radius,
     .inner_radius = cylinder_inner_radius,
     .half_extents = cylinder_extents,

@@ -88,11 +88,11 @@ Length distance_from_axis(const Vec3<Length>& point) {
       static_cast<std::int64_t>(isqrt(square(point.x) + square(point.z)))));
 }
 
-std::optional<std::uint32_t> no_vertex_at(const Sizes& /*size*/, const RawVec& /*point*/) {
+std::optional<std::uint32_t> no_vertex_at(const Shape& /*shape*/, const RawVec& /*point*/) {
   return std::nullopt;
 }
 
-int no_vertices(const Sizes& /*size*/, std::array<RawVec, 8>& /*out*/) {
+int no_vertices(const Shape& /*shape*/, std::array<RawVec, 8>& /*out*/) {
   return 0;
 }
 

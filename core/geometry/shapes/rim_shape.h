@@ -39,8 +39,8 @@ void add_disc(const PosedShape& shape, const Disc& disc, int sign, const Vec3<Un
 [[nodiscard]] Length distance_from_axis(const Vec3<Length>& point);
 
 /// Their cores have no vertices that contacts name by number.
-[[nodiscard]] std::optional<std::uint32_t> no_vertex_at(const Sizes& size, const RawVec& point);
-[[nodiscard]] int no_vertices(const Sizes& size, std::array<RawVec, 8>& out);
+[[nodiscard]] std::optional<std::uint32_t> no_vertex_at(const Shape& shape, const RawVec& point);
+[[nodiscard]] int no_vertices(const Shape& shape, std::array<RawVec, 8>& out);
 
 /// The points of a shape's feature below a plane.
 [[nodiscard]] Manifold below_feature(const PlaneMeeting& plane);

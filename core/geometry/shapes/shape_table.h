@@ -5,10 +5,11 @@
 
 // Kinds after those with a number of their own, in the order of their numbers. Each has a row
 // k_<kind>, which is linked only by programs that name the kind's function in `Shape`, and a name.
-#define LKS_LATER_SHAPES(X) \
-  X(cylinder, "cylinder")   \
-  X(cone, "cone")           \
-  X(tapered_capsule, "tapered capsule")
+#define LKS_LATER_SHAPES(X)             \
+  X(cylinder, "cylinder")               \
+  X(cone, "cone")                       \
+  X(tapered_capsule, "tapered capsule") \
+  X(rounded_box, "rounded box")
 
 // The address of a row that is not linked is null. Where the linker has no such symbols, every row
 // is linked.

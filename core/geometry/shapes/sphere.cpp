@@ -8,12 +8,8 @@
 namespace lockstone::geometry {
 namespace {
 
-Length sphere_radius(const Sizes& size) {
-  return size.x;
-}
-
-Sizes sphere_extents(const Sizes& size, const Mat3& /*rotation*/) {
-  return {size.x, size.x, size.x};
+Sizes sphere_extents(const Shape& shape, const Mat3& /*rotation*/) {
+  return {shape.size.x, shape.size.x, shape.size.x};
 }
 
 /// 2/5 r².
@@ -22,25 +18,25 @@ Vec3<Unit> sphere_inertia(const ScaledSizes& size) {
   return {moment, moment, moment};
 }
 
-Fine sphere_reach(const Sizes& size, const Vec3<Unit>& /*n*/) {
-  return fine(size.x);
+Fine sphere_reach(const Shape& shape, const Vec3<Unit>& /*n*/) {
+  return fine(shape.size.x);
 }
 
-bool sphere_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
-  return is_in_ball(point, size.x + slack);
+bool sphere_holds(const Shape& shape, const Vec3<Length>& point, Length slack) {
+  return is_in_ball(point, shape.size.x + slack);
 }
 
-std::optional<std::uint32_t> sphere_vertex_at(const Sizes& /*size*/, const RawVec& /*point*/) {
+std::optional<std::uint32_t> sphere_vertex_at(const Shape& /*shape*/, const RawVec& /*point*/) {
   return 0;
 }
 
-int sphere_vertices(const Sizes& /*size*/, std::array<RawVec, 8>& out) {
+int sphere_vertices(const Shape& /*shape*/, std::array<RawVec, 8>& out) {
   out[0] = {};
   return 1;
 }
 
-Sizes sphere_shortened(const Sizes& size, Unit /*share*/) {
-  return size;
+Shape sphere_shortened(const Shape& shape, Unit /*share*/) {
+  return shape;
 }
 
 void sphere_core(const PosedShape& shape, ConvexCore& core) {
@@ -52,9 +48,9 @@ void sphere_core(const PosedShape& shape, ConvexCore& core) {
 const ShapeTraits k_sphere{
     .size_names = {"radius", "", ""},
     .size_count = 1,
-    .has_core_radius = true,
-    .bounding_radius = sphere_radius,
-    .inner_radius = sphere_radius,
+    .core_radius = ball_swept_radius,
+    .bounding_radius = ball_swept_radius,
+    .inner_radius = ball_swept_radius,
     .half_extents = sphere_extents,
     .mass = ball_swept_mass,
     .volume = ball_swept_volume,

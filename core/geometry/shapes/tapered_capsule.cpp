@@ -18,32 +18,33 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-Length tapered_bounding_radius(const Sizes& size) {
-  const TaperedEnds ends = tapered_ends(size);
+Length tapered_bounding_radius(const Shape& shape) {
+  const TaperedEnds ends = tapered_ends(shape.size);
   const Fine most = std::max(fine(ends.low_radius) - ends.low, fine(ends.high_radius) + ends.high);
   return rounded_up(most);
 }
 
 /// Where the side is nearest to the centre of mass, rounded down.
-Length tapered_inner_radius(const Sizes& size) {
-  const TaperedEnds ends = tapered_ends(size);
+Length tapered_inner_radius(const Shape& shape) {
+  const TaperedEnds ends = tapered_ends(shape.size);
   const Fine side = fine(ends.low_radius) + scaled(ends.low, ends.slope().raw);
   return max(Length::from_raw(static_cast<std::int32_t>(side >> k_fine_per_length) - 1),
              Length::from_raw(1));
 }
 
-Fine tapered_reach(const Sizes& size, const Vec3<Unit>& n) {
-  const TaperedEnds ends = tapered_ends(size);
+Fine tapered_reach(const Shape& shape, const Vec3<Unit>& n) {
+  const TaperedEnds ends = tapered_ends(shape.size);
   return std::max(fine(ends.low_radius) + scaled(ends.low, n.y.raw),
                   fine(ends.high_radius) + scaled(ends.high, n.y.raw));
 }
 
-Sizes tapered_extents(const Sizes& size, const Mat3& rotation) {
+Sizes tapered_extents(const Shape& shape, const Mat3& rotation) {
   Sizes result;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3<Unit> n{{}, rotation.y[axis], {}};
     const Fine rounding = 2;
-    result[axis] = rounded_up(std::max(tapered_reach(size, n), tapered_reach(size, -n)) + rounding);
+    result[axis] =
+        rounded_up(std::max(tapered_reach(shape, n), tapered_reach(shape, -n)) + rounding);
   }
   return result;
 }
@@ -62,13 +63,13 @@ std::uint64_t tapered_factor(const TaperedMass& mass) {
   return round_shift(multiply_wide(static_cast<std::uint64_t>(mass.volume), k_third_pi), 61).low;
 }
 
-Mass tapered_mass(const Sizes& size, Density density) {
-  const TaperedMass mass = tapered_mass_of(size);
+Mass tapered_mass(const Shape& shape, Density density) {
+  const TaperedMass mass = tapered_mass_of(shape.size);
   return mass_with_factor(tapered_product(mass), density, tapered_factor(mass), k_tapered_bits);
 }
 
-BlockFloat tapered_volume(const Sizes& size) {
-  const TaperedMass mass = tapered_mass_of(size);
+BlockFloat tapered_volume(const Shape& shape) {
+  const TaperedMass mass = tapered_mass_of(shape.size);
   return volume_with_factor(tapered_product(mass), tapered_factor(mass), k_tapered_bits);
 }
 
@@ -96,9 +97,8 @@ void tapered_core(const PosedShape& shape, ConvexCore& core) {
     core.extent[k] += std::max(core.swell[0], core.swell[1]);
 }
 
-bool tapered_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
+bool tapered_holds(const Shape& shape, const Vec3<Length>& point, Length slack) {
   const Mat3 own;
-  const Shape shape{ShapeKind::tapered_capsule, size, {}};
   ConvexCore core;
   make_core({shape, own}, core);
   return taper_point_gap(core, fine(point)).gap.distance <= fine(core.radius + slack);
@@ -118,16 +118,15 @@ void tapered_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeatur
   if (out.count == 0) add_end(ends.low, ends.low_radius, 0);  // a ball
 }
 
-Sizes tapered_scaled(const Sizes& size, Unit share) {
-  return {rounded<Length>(size.x * share), rounded<Length>(size.y * share),
-          rounded<Length>(size.z * share)};
+Shape tapered_scaled(const Shape& shape, Unit share) {
+  return resized(shape, scaled_sizes(shape.size, share));
 }
 
-Sizes tapered_shrunk(const Sizes& size, Length depth) {
-  const Length inner = tapered_inner_radius(size);
+Shape tapered_shrunk(const Shape& shape, Length depth) {
+  const Length inner = tapered_inner_radius(shape);
   const Length left = inner - min(depth, inner);
-  return tapered_scaled(size, Unit::from_raw(static_cast<std::int32_t>(
-                                  (std::int64_t{left.raw} << Unit::frac_bits) / inner.raw)));
+  return tapered_scaled(shape, Unit::from_raw(static_cast<std::int32_t>(
+                                   (std::int64_t{left.raw} << Unit::frac_bits) / inner.raw)));
 }
 
 // Rays --------------------------------------------------------------------------------------------
@@ -164,7 +163,6 @@ ShapeRayHit tapered_ray(const Shape& shape, const Mat3& rotation, const Vec3<Len
 const ShapeTraits k_tapered_capsule{
     .size_names = {"bottom_radius", "height", "top_radius"},
     .size_count = 3,
-    .has_core_radius = false,
     .bounding_radius = tapered_bounding_radius,
     .inner_radius = tapered_inner_radius,
     .half_extents = tapered_extents,

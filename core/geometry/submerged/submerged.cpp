@@ -5,7 +5,10 @@
 
 #include <lockstone/assert.h>
 
+#include "core/geometry/convex/polytope_box.h"
+#include "core/geometry/convex/rounded_facets.h"
 #include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/shapes/tapered_ends.h"
 #include "core/geometry/submerged/clipped_solid.h"
 #include "core/geometry/submerged/sliced_solid.h"
@@ -14,6 +17,10 @@
 
 namespace lockstone::geometry {
 namespace {
+
+bool is_rounded_box(const ConvexSolid& solid) {
+  return solid.polytope == nullptr && solid.shape.kind == ShapeKind::rounded_box;
+}
 
 std::int64_t times_pi(std::int64_t x) {
   return saturated_product(x, k_pi_q60, 60);
@@ -31,7 +38,8 @@ std::int64_t size_of(const Polytope& polytope) {
 // Every point of the solid is within 2^scale m of its reference point.
 int scale_of(const ConvexSolid& solid) {
   if (solid.polytope == nullptr) return scale_exponent(solid.shape);
-  const auto most = static_cast<std::uint64_t>(size_of(*solid.polytope));
+  const auto most =
+      static_cast<std::uint64_t>(size_of(*solid.polytope) + solid.polytope->radius.raw);
   return static_cast<int>(std::bit_width(most)) + 1 - Length::frac_bits;
 }
 
@@ -99,6 +107,19 @@ void for_each_face(const Polytope& polytope, const SubmergedPart& part, F&& f) {
   }
 }
 
+void add_rounded(const Polytope& polytope, const SubmergedPart& part, ClippedSolid& clipped) {
+  const RawVec reference = fine(part.reference);
+  RoundedFacets(polytope, FacetReach::volume).for_each([&](std::span<const RawVec> facet) {
+    std::array<ScaledPoint, k_max_polytope_face_edges> corners;
+    for (std::size_t i = 0; i < facet.size(); ++i) {
+      for (int axis = 0; axis < 3; ++axis)
+        corners[i][static_cast<std::size_t>(axis)] = raw::scale_binary(
+            facet[i][axis] - reference[axis], k_scaled_bits - k_fine_bits - part.scale);
+    }
+    clipped.add_face(std::span<const ScaledPoint>(corners).first(facet.size()));
+  });
+}
+
 /// The balls of a tapered capsule in units of the scale, 30 fraction bits.
 struct ScaledEnds {
   std::int64_t low, high;
@@ -144,15 +165,54 @@ void add_round(const Shape& shape, const Vec3<Unit>& n, std::int64_t offset, Sub
 
 }  // namespace
 
+namespace {
+
+/// Volumes of slivers below this have too few digits to be corrected by: 2^-36 of the scale's cube.
+constexpr std::int64_t k_least_corrected = 1 << 12;
+
+void correct(const FacetCorrection& facets, SubmergedPart& part) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t aside = saturated_product(part.volume, facets.centre[i], k_submerged_bits);
+    part.moment[i] = product_q30(part.moment[i] - aside, facets.volume);
+  }
+  part.volume = product_q30(part.volume, facets.volume);
+}
+
+/// The share of the facets that is below, of the exact volume.
+SubmergedPart rounded_box_below(const Shape& shape, const BelowPlane& plane) {
+  const BoxPolytope box(shape.size, shape.fourth_size());
+  const Polytope view = box.view();
+  SubmergedPart part = part_below({shape, &view}, plane);
+  if (part.volume == 0) return part;
+  const std::int64_t of_facets = whole({shape, &view}).volume;
+  if (of_facets < k_least_corrected) return part;
+  const BlockFloat exact = traits_of(shape).volume(shape);
+  const std::int64_t volume =
+      raw::scale_binary(exact.mantissa, exact.exponent - 3 * part.scale + k_submerged_bits);
+  const auto scaled = [&](std::int64_t x) {
+    return round_divide(multiply_wide(x, volume), of_facets);
+  };
+  part.volume = scaled(part.volume);
+  for (std::int64_t& moment : part.moment)
+    moment = scaled(moment);
+  return part;
+}
+
+}  // namespace
+
 SubmergedPart part_below(const ConvexSolid& solid, const BelowPlane& plane) {
+  if (is_rounded_box(solid)) return rounded_box_below(solid.shape, plane);
   SubmergedPart part;
   part.scale = scale_of(solid);
   if (solid.polytope != nullptr) part.reference = solid.polytope->interior;
   const std::int64_t offset = scaled_offset(part, plane);
   if (solid.polytope != nullptr) {
     ClippedSolid clipped(plane.normal, offset);
-    for_each_face(*solid.polytope, part,
-                  [&](std::span<const ScaledPoint> face) { clipped.add_face(face); });
+    if (solid.polytope->radius > Length{})
+      add_rounded(*solid.polytope, part, clipped);
+    else
+      for_each_face(*solid.polytope, part,
+                    [&](std::span<const ScaledPoint> face) { clipped.add_face(face); });
     clipped.finish(part);
   } else if (solid.shape.kind == ShapeKind::sphere) {
     add_ball(solid.shape, plane.normal, offset, part);
@@ -162,7 +222,24 @@ SubmergedPart part_below(const ConvexSolid& solid, const BelowPlane& plane) {
     add_round(solid.shape, plane.normal, offset, part);
   }
   part.volume = std::max<std::int64_t>(part.volume, 0);
+  if (solid.polytope != nullptr && solid.polytope->facets != nullptr)
+    correct(*solid.polytope->facets, part);
   return part;
+}
+
+FacetCorrection facet_correction(const Polytope& polytope, BlockFloat volume) {
+  LKS_ASSERT(polytope.radius > Length{} && polytope.facets == nullptr);
+  const Shape shape{ShapeKind::hull, {}, {}};
+  const SubmergedPart facets = whole({shape, &polytope});
+  const std::int64_t exact =
+      raw::scale_binary(volume.mantissa, volume.exponent - 3 * facets.scale + k_submerged_bits);
+  FacetCorrection correction;
+  if (facets.volume < k_least_corrected) return correction;
+  correction.volume = round_divide(multiply_wide(exact, std::int64_t{1} << 30), facets.volume);
+  for (std::size_t i = 0; i < 3; ++i)
+    correction.centre[i] = round_divide(
+        multiply_wide(facets.moment[i], std::int64_t{1} << k_submerged_bits), facets.volume);
+  return correction;
 }
 
 SubmergedPart whole(const ConvexSolid& solid) {
@@ -193,7 +270,8 @@ std::int64_t cone_shadow(std::int64_t r, std::int64_t h, std::int64_t along, std
   return product_q30(r, raw::round_shift(product_q30(minor, angle), 2) + side);
 }
 
-// Of two discs and the part between the tangents to both, or of the greater disc that holds the other.
+// Of two discs and the part between the tangents to both, or of the greater disc that holds the
+// other.
 std::int64_t tapered_shadow(const TaperedEnds& ends, int scale, std::int64_t across) {
   const ScaledEnds at = scaled_ends(ends, scale);
   const std::int64_t r = at.low_radius, s = at.high_radius, greater = std::max(r, s);
@@ -230,6 +308,28 @@ std::int64_t round_shadow(const Shape& shape, int scale, const Vec3<Unit>& u) {
   }
 }
 
+// By how much a radius makes the shadow greater: its circumference times the radius, and a disc.
+// 30 bits.
+std::int64_t rounded_rim(const Polytope& polytope, int scale, const Vec3<Unit>& u) {
+  const auto looks_along = [&](int edge) {
+    const std::size_t face = polytope.edges[static_cast<std::size_t>(edge)].face;
+    return lockstone::dot(polytope.faces[face].normal, u).raw >= 0;
+  };
+  std::int64_t circumference = 0;
+  for (int edge = 0; edge < static_cast<int>(polytope.edges.size()); ++edge) {
+    const int twin = polytope.edges[static_cast<std::size_t>(edge)].twin;
+    if (!is_first_half(polytope, edge) || looks_along(edge) == looks_along(twin)) continue;
+    const Vec3<Length> way = edge_vector(polytope, edge);
+    const auto side = [&](int i, int j) {
+      return scaled_length(way[i], scale, 30) * u[j].raw -
+             scaled_length(way[j], scale, 30) * u[i].raw;
+    };
+    circumference += static_cast<std::int64_t>(norm(side(1, 2), side(2, 0), side(0, 1)) >> 30);
+  }
+  const std::int64_t radius = scaled_length(polytope.radius, scale, 30);
+  return product_q30(circumference, radius) + times_pi(product_q30(radius, radius));
+}
+
 // Half the sum of the faces' areas along the direction. 30 bits.
 std::int64_t polytope_shadow(const Polytope& polytope, int scale, const Vec3<Unit>& u) {
   SubmergedPart frame;
@@ -248,12 +348,17 @@ std::int64_t polytope_shadow(const Polytope& polytope, int scale, const Vec3<Uni
       along += product_q30(twice[static_cast<std::size_t>(axis)], u[axis].raw);
     sum += std::abs(along) >> 24;
   });
-  return sum / 4;
+  return sum / 4 + (polytope.radius > Length{} ? rounded_rim(polytope, scale, u) : 0);
 }
 
 }  // namespace
 
 Shadow shadow_of(const ConvexSolid& solid, const Vec3<Unit>& direction) {
+  if (is_rounded_box(solid)) {
+    const BoxPolytope box(solid.shape.size, solid.shape.fourth_size());
+    const Polytope view = box.view();
+    return shadow_of({solid.shape, &view}, direction);
+  }
   const int scale = scale_of(solid);
   std::int64_t area = 0;
   if (solid.polytope != nullptr)

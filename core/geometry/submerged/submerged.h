@@ -10,6 +10,7 @@
 #include <lockstone/vec3.h>
 
 #include "core/geometry/convex/polytope.h"
+#include "core/math/block_float.h"
 #include "core/math/int128.h"
 
 namespace lockstone::geometry {
@@ -50,8 +51,12 @@ struct SubmergedPart {
 /// rounded to 2^-28 of the scale. Solids of revolution by slices across their axis, in each
 /// interval between the breaks of the section Gauss–Legendre quadrature of 16 points in φ,
 /// y = m − w·cos φ, which takes the roots at the ends of the interval away: volumes and moments
-/// err by less than 2^-27 of the cube, or fourth power, of the scale.
+/// err by less than 2^-27 of the cube, or fourth power, of the scale. Rounded boxes and hulls by
+/// `RoundedFacets`.
 [[nodiscard]] SubmergedPart part_below(const ConvexSolid& solid, const BelowPlane& plane);
+
+/// Of a rounded hull, about its interior point, which must be its centre of mass.
+[[nodiscard]] FacetCorrection facet_correction(const Polytope& polytope, BlockFloat volume);
 
 /// The whole solid, as `part_below` of a plane above it.
 [[nodiscard]] SubmergedPart whole(const ConvexSolid& solid);

@@ -33,15 +33,22 @@ struct HullOptions {
   /// 4 … 128. Points are taken in, farthest from the hull of the others first, until this many are
   /// vertices or none lies outside; the rest is cut off.
   int max_vertices = 64;
+  /// The hull is all points within this radius of the convex hull of the points; its faces stay
+  /// flat, its edges and vertices are round. 0, or k_min_shape_size … k_max_shape_size.
+  Length radius{};
+
+  /// Options of a rounded hull. A program links the code of rounded hulls when it names this
+  /// function or `load_asset`; one that does not refuses them.
+  [[nodiscard]] static HullOptions rounded(Length radius, int max_vertices = 64);
 };
 
 /// Why no hull was built.
 enum class HullFault : std::uint8_t {
   none = 0,
-  invalid_options,          ///< max_vertices outside 4 … 128, or a negative tolerance
-  too_few_points,           ///< fewer than four
-  too_many_points,          ///< more than k_max_hull_points
-  coordinate_out_of_range,  ///< beyond k_max_asset_coordinate
+  invalid_options,  ///< max_vertices outside 4 … 128, a negative tolerance, a wrong radius
+  too_few_points,   ///< fewer than four
+  too_many_points,  ///< more than k_max_hull_points
+  coordinate_out_of_range,  ///< beyond k_max_asset_coordinate, with the radius
   coincident,               ///< all points within k_min_hull_thickness
   collinear,                ///< all points on a line, or nearly
   flat,                     ///< all points in a plane, or thinner than k_min_hull_thickness
@@ -53,8 +60,9 @@ enum class HullFault : std::uint8_t {
 
 struct HullResult;
 
-/// A convex polyhedron, in the frame of the points it was built from. It depends on the set of
-/// points and the options alone: not on the points' order, nor on repetitions.
+/// A convex polyhedron, or all points within a radius of one, in the frame of the points it was
+/// built from. It depends on the set of points and the options alone: not on the points' order, nor
+/// on repetitions.
 class Hull final : public Asset {
  public:
   /// Vertices are points given, bit for bit. Faces are polygons: triangles that lie in one plane,
@@ -68,6 +76,8 @@ class Hull final : public Asset {
 
   ~Hull() override;
 
+  /// Of a rounded hull, else 0.
+  [[nodiscard]] Length radius() const;
   /// In ascending order of x, y, z.
   [[nodiscard]] std::span<const Vec3<Length>> vertices() const;
   [[nodiscard]] int face_count() const;

@@ -1,5 +1,5 @@
-// Shapes: plain values. Sphere, capsule, box, cylinder, cone, tapered capsule and half-space are
-// complete in themselves; the others name an asset.
+// Shapes: plain values. Sphere, capsule, box, cylinder, cone, tapered capsule, rounded box and
+// half-space are complete in themselves; the others name an asset.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,20 @@ enum class ShapeKind : std::uint8_t {
   cylinder = 8,
   cone = 9,
   tapered_capsule = 10,
+  rounded_box = 11,
   path = 255,  ///< a curve for joints (asset); no body has it
 };
-inline constexpr ShapeKind k_last_shape_kind = ShapeKind::tapered_capsule;
+inline constexpr ShapeKind k_last_shape_kind = ShapeKind::rounded_box;
 [[nodiscard]] std::string_view to_string(ShapeKind kind);
 
 /// Whether shapes of this kind name an asset.
 [[nodiscard]] constexpr bool is_asset(ShapeKind kind) {
   return kind == ShapeKind::hull || (kind > ShapeKind::half_space && kind <= ShapeKind::compound);
+}
+
+/// Whether shapes of this kind have four sizes: the asset's place holds the fourth.
+[[nodiscard]] constexpr bool has_fourth_size(ShapeKind kind) {
+  return kind == ShapeKind::rounded_box;
 }
 
 /// Whether shapes of this kind are complete in themselves, solid and bounded.
@@ -59,6 +65,9 @@ inline constexpr Length k_max_shape_size = Length::from_integer(512);
 ///   tapered capsule: the hull of two balls on the body's y axis: x = radius of the lower one,
 ///            y = distance of their centres, z = radius of the upper one. Where one ball holds
 ///            the other, the shape is that ball
+///   rounded box: all points within a radius of a box: half extents of that box, which is the flat
+///            part of the faces; `asset` holds the radius. Radius and half extent are together at
+///            most k_max_shape_size along each axis
 ///   others:  zero; a half-space lies below the plane y = 0 of its body
 /// All but assets have their centre of mass at the body's origin (a cone's base is a quarter of its
 /// height below it, a tapered capsule's larger ball is the nearer one); an asset keeps its own
@@ -66,7 +75,9 @@ inline constexpr Length k_max_shape_size = Length::from_integer(512);
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;  ///< says how to read the others
   Vec3<Length> size{};                 ///< m, within the bounds above
-  AssetId asset{};                     ///< of a hull, mesh, height field, compound
+  /// Of a hull, mesh, height field, compound. Of a rounded box, which names none, the fourth size:
+  /// see `fourth_size`.
+  AssetId asset{};
 
   friend constexpr bool operator==(const Shape&, const Shape&) = default;
 
@@ -88,13 +99,29 @@ struct Shape {
   [[nodiscard]] static Shape tapered_capsule(Length height, Length bottom_radius,
                                              Length top_radius);
 
+  /// A box of these half extents, and all points within `radius` of it: its faces reach half extent
+  /// plus radius from the centre.
+  [[nodiscard]] static Shape rounded_box(Length half_x, Length half_y, Length half_z,
+                                         Length radius);
+
+  /// The radius of a rounded box; 0 of every other kind, and where `asset` holds no length.
+  [[nodiscard]] constexpr Length fourth_size() const {
+    const bool has_length = has_fourth_size(kind) && asset.value < std::uint64_t{1} << 31;
+    return Length::from_raw(has_length ? static_cast<std::int32_t>(asset.value) : 0);
+  }
+  /// The asset that the shape names; none of a kind with four sizes.
+  [[nodiscard]] constexpr AssetId asset_id() const {
+    return has_fourth_size(kind) ? AssetId{} : asset;
+  }
+
   [[nodiscard]] static constexpr Shape half_space() { return {ShapeKind::half_space, {}, {}}; }
 };
 
 /// Links every kind: for programs that load shapes that others made. Returns true.
 bool link_all_shapes();
 
-/// ok, or invalid_argument when a dimension lies outside [k_min_shape_size, k_max_shape_size], or
+/// ok, or invalid_argument when a dimension lies outside [k_min_shape_size, k_max_shape_size], a
+/// rounded box reaches farther than k_max_shape_size along an axis, or
 /// an asset is named where none belongs or missing where one does, or the program does not link the
 /// kind.
 [[nodiscard]] Status validate(const Shape& shape);

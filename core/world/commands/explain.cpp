@@ -27,7 +27,7 @@ constexpr Coefficient k_one = Coefficient::from_integer(1);
 
 void check_sizes(RefusalFinder& find, const Shape& shape) {
   const geometry::ShapeTraits* traits = geometry::find_traits(shape.kind);
-  const int used = traits == nullptr ? 0 : traits->size_count;
+  const int used = traits == nullptr ? 0 : std::min(traits->size_count, 3);
   for (int i = 0; i < 3; ++i) {
     if (i < used) {
       const std::string_view name = traits->size_names[static_cast<std::size_t>(i)];
@@ -40,6 +40,10 @@ void check_sizes(RefusalFinder& find, const Shape& shape) {
                    "0 m for a " + std::string(to_string(shape.kind)));
     }
   }
+  if (traits == nullptr || !has_fourth_size(shape.kind)) return;
+  const Length most = k_max_shape_size - max(max(shape.size.x, shape.size.y), shape.size.z);
+  find.within("shape." + std::string(traits->size_names[3]), shape.fourth_size(), k_min_shape_size,
+              most, "m");
 }
 
 }  // namespace
@@ -51,7 +55,7 @@ void check(RefusalFinder& find, const Shape& shape, const Asset* asset) {
   const std::string id = hexadecimal(shape.asset.value);
   check_sizes(find, shape);
   if (!is_asset(shape.kind)) {
-    find.require(shape.asset.is_null(), "shape.asset", id, "null for a " + kind);
+    find.require(shape.asset_id().is_null(), "shape.asset", id, "null for a " + kind);
     return;
   }
   find.require(!shape.asset.is_null(), "shape.asset", id,

@@ -13,7 +13,7 @@ void unbind(WorldData& world) {
   for (const std::uint32_t body : world.edited_bodies) {
     const BodyRecord& record = world.bodies[body];
     if (!record.exists()) continue;
-    world.cache.set_asset(body, world.assets->find(record.asset));
+    world.cache.set_asset(body, world.assets->find(record.shape().asset_id()));
     world.refresh(body);
   }
   world.edited_bodies.clear();
@@ -32,7 +32,7 @@ void bind(WorldData& world, std::uint32_t body, std::span<const TerrainTileRecor
   if (room == nullptr) return;
   LKS_ASSERT(world.edited_bodies.size() < room->slots());
   const auto slot = static_cast<std::uint32_t>(world.edited_bodies.size());
-  const Asset& base = *world.assets->find(world.bodies[body].asset);
+  const Asset& base = *world.assets->find(world.bodies[body].shape().asset_id());
   world.cache.set_asset(body, room->set(slot, base, tiles));
   world.edited_bodies.push_back(body);
   world.refresh(body);
@@ -78,12 +78,12 @@ bool forget_terrain_of(WorldData& world, std::uint32_t body) {
 }
 
 const geometry::MeshEditing* mesh_groups_of(const WorldData& world, std::uint32_t body) {
-  const Asset* asset = world.assets->find(world.bodies[body].asset);
+  const Asset* asset = world.assets->find(world.bodies[body].shape().asset_id());
   return asset == nullptr ? nullptr : asset->mesh_editing();
 }
 
 const geometry::HeightEditing* terrain_of(const WorldData& world, std::uint32_t body) {
-  const Asset* asset = world.assets->find(world.bodies[body].asset);
+  const Asset* asset = world.assets->find(world.bodies[body].shape().asset_id());
   return asset == nullptr ? nullptr : asset->height_editing();
 }
 

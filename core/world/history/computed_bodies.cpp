@@ -44,10 +44,10 @@ bool ComputedBodies::may_reach_all(WorldData& world, const TickMemory& known) co
     if (body >= before.header.body_limit) return false;
     BodyRecord record;
     before.read<BodyStore>(body, record);
-    return has_triangles(world.assets->find(record.asset));
+    return has_triangles(world.assets->find(record.shape().asset_id()));
   };
   return std::ranges::any_of(changes_.bodies(), [&](std::uint32_t body) {
-    return has_triangles(world.assets->find(world.bodies[body].asset)) || had_triangles(body);
+    return has_triangles(world.assets->find(world.bodies[body].shape().asset_id())) || had_triangles(body);
   });
 }
 

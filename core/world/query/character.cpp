@@ -380,11 +380,12 @@ void check(const CharacterDef& character) {
     case ShapeKind::cylinder:
     case ShapeKind::cone:
     case ShapeKind::tapered_capsule:
+    case ShapeKind::rounded_box:
       break;
     default:
       misused(
-          "move_character: CharacterDef::shape must be a sphere, capsule, box, cylinder, cone or "
-          "tapered capsule");
+          "move_character: CharacterDef::shape must be a sphere, capsule, box, cylinder, cone, "
+          "tapered capsule or rounded box");
   }
   if (character.skin <= Length{} || character.skin > inner_radius(character.shape))
     misused("move_character: CharacterDef::skin must be above 0 and at most the inner radius");

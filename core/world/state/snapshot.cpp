@@ -127,7 +127,7 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (record.shape_kind > static_cast<std::uint8_t>(k_last_shape_kind) ||
       validate(record.shape()) != Status::ok)
     return Status::malformed;
-  const Asset* asset = assets.find(record.asset);
+  const Asset* asset = assets.find(record.shape().asset_id());
   if (!has_known_shape(record, asset)) return Status::malformed;
   const int scale = properties_of(record.shape(), asset).scale_exponent;
   const bool consistent = record.scale_exponent == scale && has_valid_inertia(record.inertia) &&
@@ -303,7 +303,7 @@ Status SnapshotView::check(TerrainTileStore) const {
   for (std::uint32_t i = 0; i < header.terrain_tile_count; ++i) {
     const auto tile = record<TerrainTileStore>(i);
     if (tile.owner >= header.body_limit || !body(tile.owner).exists()) return Status::malformed;
-    const Asset* asset = assets_->find(body(tile.owner).asset);
+    const Asset* asset = assets_->find(body(tile.owner).shape().asset_id());
     if (asset == nullptr || !is_valid_tile(*asset, tile)) return Status::malformed;
     if (i > 0 && record<TerrainTileStore>(i - 1).key() >= tile.key()) return Status::malformed;
   }

@@ -205,7 +205,7 @@ TEST(RimShapes, FacesHaveUnitNormals) {
   for (int i = 0; i < 2000; ++i) {
     const Shape shape = random_rim_shape(dice, 0.05, 20);
     const auto is_unit = [&](const Vec3<Unit>& axis) {
-      return geometry::is_unit(geometry::traits_of(shape).face_along(shape.size, axis));
+      return geometry::is_unit(geometry::traits_of(shape).face_along(shape, axis));
     };
     ASSERT_TRUE(is_unit(Mat3{}.y) && is_unit(-Mat3{}.y)) << describe(shape);
     ASSERT_TRUE(is_unit(to_matrix(dice.orientation()).x)) << describe(shape);

@@ -43,7 +43,8 @@ double vertical_speed(const World& world, BodyHandle body) {
 TEST(Buoyancy, OfASubmergedBodyIsTheWeightOfItsVolume) {
   for (const Shape& shape : {Shape::sphere(0.5_m), Shape::box(0.5_m, 0.25_m, 1_m),
                              Shape::capsule(0.5_m, 0.25_m), Shape::cylinder(0.5_m, 0.25_m),
-                             Shape::cone(1_m, 0.5_m), Shape::tapered_capsule(1_m, 0.5_m, 0.2_m)}) {
+                             Shape::cone(1_m, 0.5_m), Shape::tapered_capsule(1_m, 0.5_m, 0.2_m),
+                             Shape::rounded_box(0.4_m, 0.2_m, 0.3_m, 0.1_m)}) {
     World world = sea();
     BodyDef def = floating(shape, Density::from_integer(2000), -20_m);
     def.orientation = from_axis_angle({0.6_r, {}, 0.8_r}, 40_deg);

@@ -175,10 +175,13 @@ constexpr Vec3<Unit> k_y_axis{{}, Unit::from_integer(1), {}};
 constexpr Vec3<Unit> k_z_axis{{}, {}, Unit::from_integer(1)};
 
 TEST(Character, OfEachShapeWalksAndStepsUp) {
-  const Shape shapes[] = {Shape::sphere(0.5_m), Shape::box(0.3_m, 0.9_m, 0.3_m),
-                          Shape::cylinder(0.9_m, 0.3_m), Shape::cone(1.8_m, 0.3_m),
-                          Shape::tapered_capsule(1_m, 0.4_m, 0.25_m)};
-  const double feet[] = {0.5, 0.9, 0.9, 0.45, 0.717};
+  const Shape shapes[] = {Shape::sphere(0.5_m),
+                          Shape::box(0.3_m, 0.9_m, 0.3_m),
+                          Shape::cylinder(0.9_m, 0.3_m),
+                          Shape::cone(1.8_m, 0.3_m),
+                          Shape::tapered_capsule(1_m, 0.4_m, 0.25_m),
+                          Shape::rounded_box(0.2_m, 0.83_m, 0.2_m, 0.07_m)};
+  const double feet[] = {0.5, 0.9, 0.9, 0.45, 0.717, 0.9};
   for (std::size_t i = 0; i < std::size(shapes); ++i) {
     Walk walk;
     walk.def.shape = shapes[i];

@@ -38,11 +38,15 @@ void lks_assets_destroy(lks_assets* assets) {
 
 lks_status lks_assets_add_hull(lks_assets* assets, const lks_length3* points, size_t count,
                                int32_t max_vertices, uint64_t* out) {
+  return lks_assets_add_rounded_hull(assets, points, count, max_vertices, 0, out);
+}
+
+lks_status lks_assets_add_rounded_hull(lks_assets* assets, const lks_length3* points, size_t count,
+                                       int32_t max_vertices, lks_length radius, uint64_t* out) {
   return call([&] {
     required(assets, "assets");
     required(out, "out");
-    HullOptions options;
-    options.max_vertices = max_vertices;
+    const HullOptions options = HullOptions::rounded(Length::from_raw(radius), max_vertices);
     HullResult result = Hull::build(points_of(points, count), options);
     if (!result.ok()) throw invalid("points", to_string(result.fault));
     assets->list.push_back(result.hull);

@@ -163,7 +163,7 @@ void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--kinds", options->kinds,
                    "Sphere, capsule, box, hull, triangle, half-space, cylinder, cone, "
-                   "tapered-capsule; default: all")
+                   "tapered-capsule, rounded-box, rounded-hull; default: all")
       ->delimiter(',')
       ->check(CLI::Validator(check_kind, "KIND"));
   command->add_option("--only", options->only, "Check this index alone and print its pair");

@@ -31,8 +31,8 @@ enum {
 typedef struct lks_studio_action {
   int64_t kind;
   int64_t body;     /* pull, remove, push */
-  int64_t shape;    /* spawn: LKS_SPHERE, LKS_BOX, LKS_CAPSULE, LKS_CYLINDER, LKS_CONE or
-                       LKS_TAPERED_CAPSULE */
+  int64_t shape;    /* spawn: LKS_SPHERE, LKS_BOX, LKS_CAPSULE, LKS_CYLINDER, LKS_CONE,
+                       LKS_TAPERED_CAPSULE or LKS_ROUNDED_BOX */
   int64_t size;     /* spawn: 2^-20 m */
   int64_t point[3]; /* pull: the point in the frame of the shape, 2^-32 m */
   int64_t place[3]; /* pull: the place; spawn: the position; 2^-32 m */

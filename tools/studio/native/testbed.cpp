@@ -94,6 +94,8 @@ Shape spawned_shape(std::int64_t kind, Length size) {
       return Shape::cone(size * 2, size);
     case LKS_TAPERED_CAPSULE:
       return Shape::tapered_capsule(size * 2, size, size / 2);
+    case LKS_ROUNDED_BOX:
+      return Shape::rounded_box(size / 2, size / 2, size / 2, size / 2);
     default:
       return Shape::box(size, size, size);
   }

@@ -4,7 +4,7 @@ import type { World } from "../../web/src/world.js";
 import type * as three from "three";
 import { Facts, section, toggle } from "./dom.js";
 
-const KINDS = ["sphere", "capsule", "box", "hull", "half-space", "mesh", "height field", "compound", "cylinder", "cone", "tapered capsule"];
+const KINDS = ["sphere", "capsule", "box", "hull", "half-space", "mesh", "height field", "compound", "cylinder", "cone", "tapered capsule", "rounded box"];
 const NAMES = ["body", "shape", "motion", "mass", "position", "velocity", "turning", "state"] as const;
 
 function numbers(values: ArrayLike<number>, digits = 4): string {

@@ -16,7 +16,7 @@ import { Diorama, type Picture } from "./picture.js";
 import { Selection } from "./selection.js";
 import { TestbedStage } from "./testbed_stage.js";
 
-const SHAPES = { box: c.LKS_BOX, ball: c.LKS_SPHERE, capsule: c.LKS_CAPSULE, cylinder: c.LKS_CYLINDER, cone: c.LKS_CONE, club: c.LKS_TAPERED_CAPSULE } as const;
+const SHAPES = { box: c.LKS_BOX, ball: c.LKS_SPHERE, capsule: c.LKS_CAPSULE, cylinder: c.LKS_CYLINDER, cone: c.LKS_CONE, club: c.LKS_TAPERED_CAPSULE, die: c.LKS_ROUNDED_BOX } as const;
 const COUNTS = ["bodies", "awake", "asleep", "contacts", "points", "islands", "joints"] as const;
 const SWITCHES = [...OVERLAYS, "sleeping", "triggers"] as const;
 const NAMES: Record<string, string> = { masses: "centre of mass", contacts: "contacts, forces" };

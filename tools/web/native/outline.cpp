@@ -7,6 +7,9 @@
 #include <lockstone/world.h>
 
 #include "core/geometry/convex/parts.h"
+#include "core/geometry/convex/polytope_box.h"
+#include "core/geometry/convex/rounded_facets.h"
+#include "core/geometry/distance/contact_point.h"
 #include "tools/bindings/c/convert.h"
 #include "tools/bindings/c/handles.h"
 #include "tools/web/native/lockstone_web.h"
@@ -35,6 +38,10 @@ class Outline final : public geometry::PartVisitor {
   }
 
   void add_part(const Shape& shape, const Vec3<Length>& position, const Mat3& rotation) {
+    if (shape.kind == ShapeKind::rounded_box) {
+      const geometry::BoxPolytope box(shape.size, shape.fourth_size());
+      return add_faces(box.view(), position, rotation);
+    }
     lks_web_part part{};
     part.kind = static_cast<std::uint32_t>(shape.kind);
     std::ranges::copy(floats(shape.size), part.size);
@@ -45,9 +52,18 @@ class Outline final : public geometry::PartVisitor {
     parts.push_back(part);
   }
 
-  // A fan of triangles for each face; a triangle of a mesh has its front alone.
+  // A fan of triangles for each face or facet; a triangle of a mesh has its front alone.
   void add_faces(const geometry::Polytope& polytope, const Vec3<Length>& position,
                  const Mat3& rotation) {
+    if (polytope.radius > Length{}) {
+      const geometry::RoundedFacets facets(polytope, geometry::FacetReach::surface);
+      return facets.for_each([&](std::span<const geometry::RawVec> corners) {
+        for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+          for (const std::size_t corner : {std::size_t{0}, i, i + 1})
+            add_point(geometry::to_length(corners[corner]), position, rotation);
+        }
+      });
+    }
     const std::size_t faces = geometry::is_flat(polytope) ? 1 : polytope.faces.size();
     for (const geometry::PolytopeFace& face : polytope.faces.first(faces)) {
       for (int i = 1; i + 1 < face.edge_count; ++i) {

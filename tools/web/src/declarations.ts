@@ -47,6 +47,7 @@ export const LKS_COMPOUND = 7;
 export const LKS_CYLINDER = 8;
 export const LKS_CONE = 9;
 export const LKS_TAPERED_CAPSULE = 10;
+export const LKS_ROUNDED_BOX = 11;
 export const LKS_MAX_HISTORY_TICKS = 256;
 export const LKS_STATIC = 1;
 export const LKS_KINEMATIC = 2;
@@ -216,6 +217,7 @@ export interface Functions {
   lks_assets_destroy(assets: number): void;
   lks_assets_add_hull(assets: number, points: number, count: number, max_vertices: number, out: number): number;
   lks_assets_add_path(assets: number, points: number, count: number, closed: number, out: number): number;
+  lks_assets_add_rounded_hull(assets: number, points: number, count: number, max_vertices: number, radius: number, out: number): number;
   lks_assets_add_bytes(assets: number, bytes: number, count: number, out: number): number;
   lks_world_def_init(def: number, size: number): number;
   lks_world_create(def: number, assets: number, out: number): number;

@@ -22,7 +22,8 @@ export {
   overlapSphere,
 } from "./queries.js";
 export {
-  Assets, type Shape, assetShape, box, capsule, cone, cylinder, halfSpace, sphere, taperedCapsule,
+  Assets, type Shape, assetShape, box, capsule, cone, cylinder, halfSpace, roundedBox, sphere,
+  taperedCapsule,
 } from "./shapes.js";
 export {
   type PartHashes, Snapshot, describeDifference, loadState, partHashes, saveState,

@@ -1,13 +1,13 @@
 import * as c from "./declarations.js";
 import type { Heap } from "./heap.js";
 import type { Lockstone } from "./load.js";
-import type { Quantity, Vector } from "./units.js";
+import { type Quantity, type Vector, raw32 } from "./units.js";
 
 /** A shape, made by `sphere`, `box`, …. Sizes are 0.98 mm … 512 m. */
 export interface Shape {
   readonly kind: number;
   readonly size: Vector;
-  /** The name of an asset; 0 of shapes without one. */
+  /** The name of an asset; the raw radius of a rounded box; 0 of others. */
   readonly asset: bigint;
 }
 
@@ -41,6 +41,11 @@ export function cone(height: Quantity, radius: Quantity): Shape {
 /** The hull of two balls along y, whose centres are the height apart. */
 export function taperedCapsule(height: Quantity, bottomRadius: Quantity, topRadius: Quantity): Shape {
   return shape(c.LKS_TAPERED_CAPSULE, bottomRadius, height, topRadius);
+}
+
+/** A box of these half extents, and all within the radius of it. */
+export function roundedBox(halfX: Quantity, halfY: Quantity, halfZ: Quantity, radius: Quantity): Shape {
+  return shape(c.LKS_ROUNDED_BOX, halfX, halfY, halfZ, BigInt(raw32(radius, c.LKS_LENGTH_BITS)));
 }
 
 /** All below the plane y = 0 of its body, which must be static. */
@@ -81,13 +86,14 @@ export class Assets {
     forgotten.register(this, () => heap.f.lks_assets_destroy(address));
   }
 
-  /** The convex hull of 4 … 65536 points. */
-  addHull(points: readonly Vector[], maxVertices = 64): Shape {
+  /** The convex hull of 4 … 65536 points; with a radius, all points within it of that hull. */
+  addHull(points: readonly Vector[], maxVertices = 64, radius: Quantity = 0): Shape {
     const { heap } = this.lockstone;
     const bytes = points.length * c.lks_i32x3.$bytes;
     const asset = this.add(bytes, (at) => {
       points.forEach((point, i) => heap.putVector32(at + i * c.lks_i32x3.$bytes, point, c.LKS_LENGTH_BITS));
-      return heap.f.lks_assets_add_hull(this.address, at, points.length, maxVertices, heap.output);
+      return heap.f.lks_assets_add_rounded_hull(this.address, at, points.length, maxVertices, raw32(radius, c.LKS_LENGTH_BITS),
+        heap.output);
     });
     return assetShape("hull", asset);
   }

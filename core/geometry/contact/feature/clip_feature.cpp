@@ -90,7 +90,8 @@ std::int64_t greatest(const RawVec& v, std::int64_t most) {
 }  // namespace
 
 ClipFrame frame_on(const ContactFeature& face) {
-  ClipFrame frame{face.points[0].at, perpendicular_to(face.normal), {}, face.normal};
+  const RawVec origin = face.points[0].at + along(face.normal, face.radius);
+  ClipFrame frame{origin, perpendicular_to(face.normal), {}, face.normal};
   frame.v = rounded<Unit>(cross(face.normal, frame.u));
   return frame;
 }

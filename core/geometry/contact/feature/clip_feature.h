@@ -8,7 +8,7 @@
 
 namespace lockstone::geometry {
 
-/// The frame on a face: its origin is the face's first point.
+/// The frame on a face: its origin is the surface above the face's first point.
 struct ClipFrame {
   RawVec origin;
   Vec3<Unit> u;

@@ -68,7 +68,7 @@ Fine separation_along(const ConvexMeeting& pair, const Vec3<Unit>& n) {
 Shape with_round_ends(const PosedShape& posed) {
   if (posed.polytope != nullptr) return posed.shape;
   const ShapeTraits& traits = traits_of(posed.shape);
-  return traits.with_round_ends != nullptr ? traits.with_round_ends(posed.shape.size) : posed.shape;
+  return traits.with_round_ends != nullptr ? traits.with_round_ends(posed.shape) : posed.shape;
 }
 
 /// Whether the axis meets the shape at its side, not beyond an end by more than 2 µm, and so far
@@ -181,8 +181,10 @@ bool find_face_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
 
 /// How far two edges may be aside from each other and yet meet along the normal: 1/64 of the least
 /// radius of round shapes; any distance where there is none.
-Fine widest_aside(const ConvexMeeting& pair) {
+Fine widest_aside(const ConvexMeeting& pair, const ShownFeatures& shown) {
   Fine least = k_any_separation;
+  for (const ContactFeature* feature : {&shown.a, &shown.b})
+    if (feature->radius > Length{}) least = std::min(least, fine(feature->radius) / 64);
   for (const PosedShape* posed : {&pair.a, &pair.b})
     if (is_round(posed->shape)) least = std::min(least, fine(posed->shape.size.x) / 64);
   return least;
@@ -213,7 +215,7 @@ bool find_edge_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
     const RawVec core_b = from_b + along(along_b.unit, s);
     const Fine gap = dot(core_b - core_a, axis.normal);
     const RawVec aside = core_b - core_a - along(axis.normal, gap);
-    if (norm(aside.x, aside.y, aside.z) > static_cast<std::uint64_t>(widest_aside(pair)))
+    if (norm(aside.x, aside.y, aside.z) > static_cast<std::uint64_t>(widest_aside(pair, shown)))
       return false;
     const Witnesses at = inflate(core_a, shown.a.radius, core_b, shown.b.radius, axis.normal);
     add_convex_point(pair, found, at, gap - fine(shown.a.radius) - fine(shown.b.radius),
@@ -239,9 +241,12 @@ bool is_one_sided(const PosedShape& posed) {
   return posed.polytope != nullptr && posed.polytope->one_sided;
 }
 
-/// The front of a one-sided polytope; `centre` is the other shape's, from the polytope's. False
-/// when that is behind it.
-bool is_before_front(const PosedShape& posed, const Vec3<Length>& centre) {
+/// The front of a one-sided polytope; the other shape's origin is `offset` away. False when its
+/// centre is behind the front.
+bool is_before_front(const PosedShape& posed, const PosedShape& other, const Vec3<Length>& offset) {
+  Vec3<Length> centre = offset;
+  if (other.polytope != nullptr)
+    centre += rounded<Length>(lockstone::rotate(other.rotation, other.polytope->interior));
   const PolytopeFace& front = posed.polytope->faces[0];
   return lockstone::dot(front.normal, rotate_inverse(posed.rotation, centre)).raw >= front.offset;
 }
@@ -303,7 +308,7 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
                         Length margin) {
   const ConvexMeeting pair{a, b, offset, margin};
   const bool front_a = is_one_sided(a);
-  if (front_a && !is_before_front(a, offset)) return {};
+  if (front_a && !is_before_front(a, b, offset)) return {};
   ConvexAxis axis;
   if (has_sphere(pair) || !find_side_axis(pair, axis)) axis = nearest_axis(pair);
   ShownFeatures shown;

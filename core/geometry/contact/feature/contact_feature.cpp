@@ -5,6 +5,7 @@
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
+#include "core/math/roots.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -12,15 +13,58 @@ namespace {
 /// A segment that leans more than this towards n shows its end alone: 1/32.
 constexpr std::int64_t k_steep = std::int64_t{1} << 55;
 
+/// Whether a rounded polytope shows its edges and vertices where the best face leans from n by more
+/// than 30°.
+bool shows_round_part(const Polytope& p, const PolytopeFace& face, const Vec3<Unit>& local) {
+  constexpr std::int64_t k_cosine = 998463904061845504;  // of 30°, 60 bits
+  return p.radius > Length{} && lockstone::dot(face.normal, local).raw < k_cosine;
+}
+
+/// Whether a direction square to an edge, or nearly, is between the normals beside it.
+bool is_between_faces(const Polytope& p, const HalfEdge& edge, const Vec3<Unit>& n) {
+  constexpr std::int64_t k_slack = std::int64_t{1} << 50;
+  const Vec3<Unit>& here = p.faces[edge.face].normal;
+  const Vec3<Unit>& there = p.faces[p.edges[edge.twin].face].normal;
+  const std::int64_t least = lockstone::dot(here, there).raw - k_slack;
+  return lockstone::dot(n, here).raw >= least && lockstone::dot(n, there).raw >= least;
+}
+
+/// The edge at the vertex that leans least, with both ends unless it is steep.
+void round_part(const PosedShape& shape, int vertex, const Vec3<Unit>& local, ContactFeature& out) {
+  LKS_ASSERT(shape.polytope != nullptr && is_unit(local));
+  const Polytope& p = *shape.polytope;
+  LKS_ASSERT(vertex >= 0 && vertex < static_cast<int>(p.vertices.size()));
+  int best = -1;
+  std::int64_t least = k_steep;
+  for (std::size_t i = 0; i < p.edges.size(); ++i) {
+    if (p.edges[i].origin != vertex || !is_between_faces(p, p.edges[i], local)) continue;
+    const Vec3<Unit> way = direction_of(edge_vector(p, static_cast<int>(i)));
+    const std::int64_t lean = magnitude_of(lockstone::dot(way, local).raw);
+    if (lean > least || (lean == least && best >= 0)) continue;
+    best = static_cast<int>(i);
+    least = lean;
+  }
+  const auto add = [&](std::uint32_t id) {
+    out.add(rotate(shape.rotation, fine(p.vertices[id])), id);
+  };
+  add(static_cast<std::uint32_t>(vertex));
+  if (best >= 0) add(p.edges[p.edges[static_cast<std::size_t>(best)].twin].origin);
+  LKS_ASSERT(out.count == (best >= 0 ? 2 : 1) && !out.is_flat);
+}
+
 void polytope_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
   LKS_ASSERT(shape.polytope != nullptr && is_unit(n));
   const Polytope& p = *shape.polytope;
   const Vec3<Unit> local = rotate_inverse(shape.rotation, n);
-  const int face = p.one_sided ? 0 : most_opposed_face(p, support_of(p, local).vertex, -local);
+  const int vertex = support_of(p, local).vertex;
+  const int face = p.one_sided ? 0 : most_opposed_face(p, vertex, -local);
   const PolytopeFace& f = p.faces[static_cast<std::size_t>(face)];
+  out.radius = p.radius;
+  if (shows_round_part(p, f, local)) return round_part(shape, vertex, local, out);
   out.is_flat = true;
   out.normal = unit_axis(lockstone::rotate(shape.rotation, f.normal));
   LKS_ASSERT(f.edge_count >= 3 && is_unit(out.normal));
+  LKS_ASSERT(out.radius >= Length{});
   for (int i = 0; i < f.edge_count; ++i) {
     const int edge = f.first_edge + i;
     out.add(rotate(shape.rotation, fine(start_of(p, edge))),
@@ -53,7 +97,7 @@ void box_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& o
 /// Of a sphere or a capsule.
 void ball_swept_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
   std::array<RawVec, 8> vertices;
-  const int count = traits_of(shape.shape).vertices(shape.shape.size, vertices);
+  const int count = traits_of(shape.shape).vertices(shape.shape, vertices);
   out.radius = shape.shape.size.x;
   const std::int64_t lean = lockstone::dot(shape.rotation.y, n).raw;
   for (int i = 0; i < count; ++i) {
@@ -73,13 +117,15 @@ void find_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& 
   if (shape.polytope != nullptr) return polytope_feature(shape, n, out);
   const ShapeTraits& traits = traits_of(shape.shape);
   if (traits.find_feature != nullptr) return traits.find_feature(shape, n, out);
-  return traits.has_core_radius ? ball_swept_feature(shape, n, out) : box_feature(shape, n, out);
+  return traits.core_radius != nullptr ? ball_swept_feature(shape, n, out)
+                                       : box_feature(shape, n, out);
 }
 
 Fine reach_along(const PosedShape& shape, const Vec3<Unit>& n) {
   const Vec3<Unit> local = rotate_inverse(shape.rotation, n);
-  if (shape.polytope != nullptr) return support_of(*shape.polytope, local).height;
-  return traits_of(shape.shape).reach(shape.shape.size, local);
+  if (shape.polytope != nullptr)
+    return support_of(*shape.polytope, local).height + fine(shape.polytope->radius);
+  return traits_of(shape.shape).reach(shape.shape, local);
 }
 
 }  // namespace lockstone::geometry

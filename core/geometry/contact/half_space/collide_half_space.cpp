@@ -150,7 +150,7 @@ Manifold below_points(const PlaneMeeting& plane, const ContactFeature& feature) 
                                      const Vec3<Unit>& v, LowPolygon& polygon) {
     for (int i = 0; i < feature.count; ++i) {
       const FeaturePoint& point = feature.points[static_cast<std::size_t>(i)];
-      polygon.add(at, u, v, point.at, point.id);
+      polygon.add(at, u, v, point.at - along(at.normal, feature.radius), point.id);
     }
   };
   return below_face(plane, add_points);
@@ -160,6 +160,7 @@ Manifold collide_half_space(const PosedShape& half_space, const PosedShape& b,
                             const Vec3<Length>& offset, Length margin) {
   const Vec3<Unit> normal = unit_axis(half_space.rotation.y);
   const PlaneMeeting plane{normal, b, offset, margin, lockstone::dot(normal, offset).raw};
+  LKS_ASSERT(b.polytope == nullptr || b.polytope->radius == Length{});
   const Manifold manifold = b.polytope != nullptr ? below_face(plane, polytope_face)
                                                   : traits_of(b.shape).below_plane(plane);
   return manifold.count > 0 ? manifold : Manifold{};

@@ -22,6 +22,7 @@ void list_vertices(const Polytope& polytope, const Mat3& rotation, ConvexCore& c
                   {rotation.x.y, rotation.y.y, rotation.z.y},
                   {rotation.x.z, rotation.y.z, rotation.z.z}};
   core.vertex_count = static_cast<int>(polytope.vertices.size());
+  core.radius = polytope.radius;
   RawVec lower = to_local(rows, polytope.vertices[0]);
   RawVec upper = lower;
   for (std::size_t i = 0; i < polytope.vertices.size(); ++i) {

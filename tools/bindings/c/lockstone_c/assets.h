@@ -19,19 +19,21 @@ enum {
   LKS_COMPOUND = 7,
   LKS_CYLINDER = 8,
   LKS_CONE = 9,
-  LKS_TAPERED_CAPSULE = 10
+  LKS_TAPERED_CAPSULE = 10,
+  LKS_ROUNDED_BOX = 11
 };
 
 /* The size means, by kind: sphere: x = radius; capsule: x = radius, y = half the length of the core
  * segment, along y; box: half extents; cylinder: x = radius, y = half the height, along y; cone: x
  * = radius of the base, y = height, along y, the origin a quarter of it above the base; tapered
  * capsule: the hull of two balls on the y axis, x = radius of the lower one, y = distance of their
- * centres, z = radius of the upper one, the origin at its centre of mass; others: zero. Sizes are
- * 0.98 mm … 512 m. */
+ * centres, z = radius of the upper one, the origin at its centre of mass; rounded box: half extents
+ * of the box that its radius surrounds, which with the radius are at most 512 m; others: zero.
+ * Sizes are 0.98 mm … 512 m. */
 typedef struct lks_shape {
   uint32_t kind;
   lks_length3 size;
-  uint64_t asset; /* of hull, mesh, height field and compound; else 0 */
+  uint64_t asset; /* of hull, mesh, height field and compound; a rounded box' radius; else 0 */
 } lks_shape;
 
 static inline lks_shape lks_shape_of(uint32_t kind, lks_length x, lks_length y, lks_length z,
@@ -62,6 +64,11 @@ static inline lks_shape lks_cone(lks_length height, lks_length radius) {
 static inline lks_shape lks_tapered_capsule(lks_length height, lks_length bottom_radius,
                                             lks_length top_radius) {
   return lks_shape_of(LKS_TAPERED_CAPSULE, bottom_radius, height, top_radius, 0);
+}
+/* A box of these half extents, and all within `radius` of it: `asset` holds the radius. */
+static inline lks_shape lks_rounded_box(lks_length half_x, lks_length half_y, lks_length half_z,
+                                        lks_length radius) {
+  return lks_shape_of(LKS_ROUNDED_BOX, half_x, half_y, half_z, (uint64_t)(uint32_t)radius);
 }
 static inline lks_shape lks_half_space(void) {
   return lks_shape_of(LKS_HALF_SPACE, 0, 0, 0, 0);
@@ -94,6 +101,10 @@ typedef struct lks_path_point {
  * such path. */
 LKS_API lks_status lks_assets_add_path(lks_assets* assets, const lks_path_point* points,
                                        size_t count, uint32_t closed, uint64_t* out);
+/* The same with a radius, 0.98 mm … 512 m: all points within it of that hull. */
+LKS_API lks_status lks_assets_add_rounded_hull(lks_assets* assets, const lks_length3* points,
+                                               size_t count, int32_t max_vertices,
+                                               lks_length radius, uint64_t* out);
 
 /* Adds an asset of any kind from its canonical bytes, as `lockstone asset build` writes them. They
  * may come from anywhere. A compound's hulls must be in the set: else LKS_NOT_FOUND. */

@@ -11,7 +11,8 @@ from .games import (ABSENT, CANONICAL, NATIVE, NEUTRAL, RECEIVED, REPEATED, Game
 from .logs import CORRUPT, DIVERGED, INCOMPATIBLE, SAME, Verdict, verify_log
 from .recordings import Log, LoggedTick, Recorder
 from .sessions import Client, Network, Server, SessionEvent, Transport, now_us, ticks_of
-from .shapes import Assets, box, capsule, cone, cylinder, half_space, sphere, tapered_capsule
+from .shapes import (Assets, box, capsule, cone, cylinder, half_space, rounded_box, sphere,
+                     tapered_capsule)
 from .units import Raw
 from .world import (ALLOW_SLEEP, BALL, BULLET, CONTACT_BEGIN, CONTACT_END, DISTANCE, DYNAMIC, FIXED_ROTATION, GEAR,
                     HINGE, IMPACT, KINEMATIC, MOTOR, PATH, PULLEY, RACK, RATCHET, SIX_AXIS, SLEEP, SLIDER, STATIC, TRIGGER,

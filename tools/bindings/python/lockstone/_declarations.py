@@ -14,6 +14,7 @@ LKS_COMPOUND = 7
 LKS_CYLINDER = 8
 LKS_CONE = 9
 LKS_TAPERED_CAPSULE = 10
+LKS_ROUNDED_BOX = 11
 LKS_C_ABI = 0
 LKS_OK = 0
 LKS_CAPACITY_EXHAUSTED = 1
@@ -1008,6 +1009,7 @@ FUNCTIONS = {
     "lks_assets_destroy": [None, c_void_p],
     "lks_assets_add_hull": [c_int32, c_void_p, POINTER(lks_i32x3), c_size_t, c_int32, POINTER(c_uint64)],
     "lks_assets_add_path": [c_int32, c_void_p, POINTER(lks_path_point), c_size_t, c_uint32, POINTER(c_uint64)],
+    "lks_assets_add_rounded_hull": [c_int32, c_void_p, POINTER(lks_i32x3), c_size_t, c_int32, c_int32, POINTER(c_uint64)],
     "lks_assets_add_bytes": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_uint64)],
     "lks_status_name": [c_char_p, c_int32],
     "lks_last_error": [c_char_p],

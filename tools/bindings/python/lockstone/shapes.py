@@ -46,6 +46,11 @@ def tapered_capsule(height: Quantity, bottom_radius: Quantity, top_radius: Quant
     return Shape(10, lengths((bottom_radius, height, top_radius)), 0)
 
 
+def rounded_box(half_x: Quantity, half_y: Quantity, half_z: Quantity, radius: Quantity) -> Shape:
+    """A box of these half extents, and all within the radius of it."""
+    return Shape(11, lengths((half_x, half_y, half_z)), _length(radius))
+
+
 def half_space() -> Shape:
     """All below the plane y = 0 of its body, which must be static."""
     return Shape(4, I32x3(0, 0, 0), 0)
@@ -63,12 +68,13 @@ class Assets:
         if hasattr(self, "handle"):
             lib.lks_assets_destroy(self.handle)
 
-    def add_hull(self, points: Iterable[Vector], max_vertices: int = 64) -> Shape:
-        """The convex hull of 4 … 65536 points."""
+    def add_hull(self, points: Iterable[Vector], max_vertices: int = 64,
+                 radius: Quantity = 0) -> Shape:
+        """The convex hull of 4 … 65536 points; with a radius, all points within it of that hull."""
         raw = [lengths(point) for point in points]
         asset = ctypes.c_uint64()
-        lib.lks_assets_add_hull(self.handle, (I32x3 * len(raw))(*raw), len(raw), max_vertices,
-                                ctypes.byref(asset))
+        lib.lks_assets_add_rounded_hull(self.handle, (I32x3 * len(raw))(*raw), len(raw), max_vertices,
+                                        _length(radius), ctypes.byref(asset))
         return Shape(3, I32x3(0, 0, 0), asset.value)
 
     def add_path(self, points: Iterable[Tuple[Vector, Vector]], closed: bool = False) -> int:

@@ -954,6 +954,7 @@ namespace Lockstone.Interop
         public const uint LKS_CYLINDER = 8;
         public const uint LKS_CONE = 9;
         public const uint LKS_TAPERED_CAPSULE = 10;
+        public const uint LKS_ROUNDED_BOX = 11;
         public const uint LKS_C_ABI = 0;
         public const int LKS_OK = 0;
         public const int LKS_CAPACITY_EXHAUSTED = 1;
@@ -1135,6 +1136,9 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_path(IntPtr assets, lks_path_point* points, UIntPtr count, uint closed, ulong* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_assets_add_rounded_hull(IntPtr assets, lks_i32x3* points, UIntPtr count, int max_vertices, int radius, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_bytes(IntPtr assets, void* bytes, UIntPtr count, ulong* @out);

@@ -78,6 +78,9 @@ namespace Lockstone
         /// <summary>The hull of two balls along y, whose centres are the height apart.</summary>
         public static lks_shape TaperedCapsule(int height, int bottomRadius, int topRadius) =>
             Of(Native.LKS_TAPERED_CAPSULE, bottomRadius, height, topRadius);
+        /// <summary>A box of these half extents, and all within the radius of it.</summary>
+        public static lks_shape RoundedBox(int halfX, int halfY, int halfZ, int radius) =>
+            Of(Native.LKS_ROUNDED_BOX, halfX, halfY, halfZ, (uint)radius);
         public static lks_shape HalfSpace() => Of(Native.LKS_HALF_SPACE, 0, 0, 0);
         /// <summary>Of an asset: <c>Native.LKS_HULL</c>, <c>LKS_MESH</c>, <c>LKS_HEIGHT_FIELD</c>, <c>LKS_COMPOUND</c>.</summary>
         public static lks_shape Asset(uint kind, ulong name) => Of(kind, 0, 0, 0, name);

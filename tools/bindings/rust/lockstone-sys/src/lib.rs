@@ -49,6 +49,7 @@ pub const LKS_COMPOUND: u32 = 7;
 pub const LKS_CYLINDER: u32 = 8;
 pub const LKS_CONE: u32 = 9;
 pub const LKS_TAPERED_CAPSULE: u32 = 10;
+pub const LKS_ROUNDED_BOX: u32 = 11;
 pub const LKS_C_ABI: u32 = 0;
 pub const LKS_OK: i32 = 0;
 pub const LKS_CAPACITY_EXHAUSTED: i32 = 1;
@@ -1023,6 +1024,7 @@ extern "C" {
     pub fn lks_assets_destroy(assets: *mut lks_assets);
     pub fn lks_assets_add_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_path(assets: *mut lks_assets, points: *const lks_path_point, count: usize, closed: u32, out: *mut u64) -> lks_status;
+    pub fn lks_assets_add_rounded_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, radius: lks_length, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_bytes(assets: *mut lks_assets, bytes: *const c_void, count: usize, out: *mut u64) -> lks_status;
     pub fn lks_status_name(status: lks_status) -> *const c_char;
     pub fn lks_last_error() -> *const c_char;

@@ -79,6 +79,15 @@ impl Shape {
     ) -> lks_shape {
         Self::of(sys::LKS_TAPERED_CAPSULE, bottom_radius, height, top_radius, 0)
     }
+    /// A box of these half extents, and all within the radius of it.
+    pub const fn rounded_box(
+        half_x: lks_length,
+        half_y: lks_length,
+        half_z: lks_length,
+        radius: lks_length,
+    ) -> lks_shape {
+        Self::of(sys::LKS_ROUNDED_BOX, half_x, half_y, half_z, radius as u32 as u64)
+    }
     pub const fn half_space() -> lks_shape {
         Self::of(sys::LKS_HALF_SPACE, 0, 0, 0, 0)
     }
@@ -107,6 +116,14 @@ impl Assets {
     pub fn add_path(&mut self, points: &[sys::lks_path_point], closed: bool) -> Result<u64> {
         let mut name = 0;
         check(unsafe { sys::lks_assets_add_path(self.0, points.as_ptr(), points.len(), closed.into(), &mut name) })?;
+        Ok(name)
+    }
+    /// Adds all points within the radius of that hull; returns its name.
+    pub fn add_rounded_hull(&mut self, points: &[lks_i32x3], max_vertices: i32, radius: lks_length) -> Result<u64> {
+        let mut name = 0;
+        check(unsafe {
+            sys::lks_assets_add_rounded_hull(self.0, points.as_ptr(), points.len(), max_vertices, radius, &mut name)
+        })?;
         Ok(name)
     }
     /// Adds an asset from its canonical bytes.
