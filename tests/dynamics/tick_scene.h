@@ -41,7 +41,7 @@ class TickScene {
   void add_joint(std::uint32_t a, std::uint32_t b) { links_.push_back({0, a, b}); }
 
   [[nodiscard]] ContactScene get() const {
-    return {bodies_, {}, ids_, manifolds_, surfaces_, records_, {}, links_, {}, 0};
+    return {bodies_, {}, ids_, manifolds_, surfaces_, records_, {}, links_, {}, {}, 0};
   }
 
   /// Gathers the scene's contacts.

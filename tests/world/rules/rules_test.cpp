@@ -221,7 +221,7 @@ TEST(SurfaceRules, AreRefusedOutOfRange) {
 
 // One-way bodies ----------------------------------------------------------------------------------
 
-class OneWayShapes : public testing::TestWithParam<Shape> {};
+class OneWayShapes : public ::testing::TestWithParam<Shape> {};
 
 TEST_P(OneWayShapes, JumpThroughFromBelowAndLand) {
   World world = empty();
@@ -241,7 +241,7 @@ TEST_P(OneWayShapes, JumpThroughFromBelowAndLand) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, OneWayShapes,
-                         testing::Values(Shape::box(0.5_m, 0.5_m, 0.5_m), Shape::sphere(0.5_m),
+                         ::testing::Values(Shape::box(0.5_m, 0.5_m, 0.5_m), Shape::sphere(0.5_m),
                                          Shape::capsule(0.25_m, 0.25_m),
                                          Shape::cylinder(0.5_m, 0.5_m)));
 
