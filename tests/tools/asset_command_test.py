@@ -236,7 +236,7 @@ class Info(Case):
     def test_the_worst_file_decides(self):
         good = self.write("good.lka", self.HULL)
         for data, code in [(self.HULL[:-1], CORRUPT), (self.HULL + b"\0", CORRUPT), (b"", CORRUPT),
-                           (b"LKSA\2" + self.HULL[5:], INCOMPATIBLE)]:
+                           (b"LKSA\3" + self.HULL[5:], INCOMPATIBLE)]:
             done = self.expect(code, "info", "--json", good, self.write("bad.lka", data))
             first, second = json.loads(done.stdout)
             self.assertEqual(first["vertices"], 4)

@@ -44,6 +44,7 @@ void SubstepSchedule::plan_preparation(const TickWork& work) {
 }
 
 void SubstepSchedule::plan_substeps(const TickWork& work) {
+  LKS_ASSERT(!work.watches_energy || work.has_joints);
   clear();
   for (int substep = 0; substep < substeps_; ++substep)
     plan_substep(work, static_cast<std::uint8_t>(substep));
