@@ -202,8 +202,8 @@ Fine thickness_of(const std::vector<PolytopeFace>& faces, const Points& vertices
 }
 
 /// Of a sphere about `centre` below all faces and the vertices around them, rounded down.
-Length inner_radius(const std::vector<Loop>& loops, const std::vector<PolytopeFace>& faces,
-                    const Points& vertices, const Vec3<Length>& centre) {
+Length inner_radius_of(const std::vector<Loop>& loops, const std::vector<PolytopeFace>& faces,
+                       const Points& vertices, const Vec3<Length>& centre) {
   Fine least = geometry::fine(Length::max());
   for (std::size_t i = 0; i < faces.size(); ++i)
     for (const std::uint16_t v : loops[i])
@@ -253,7 +253,7 @@ bool Hull::Data::round(Length radius, const std::vector<Loop>& loops) {
   const auto rounded = rounding.solid_of(polytope);
   if (!rounded) return false;
   solid = *rounded;
-  solid.inner_radius = radius + ::lockstone::inner_radius(loops, faces, vertices, solid.centre);
+  solid.inner_radius = radius + inner_radius_of(loops, faces, vertices, solid.centre);
   polytope.interior = solid.centre;
   facets = rounding.facets_of(polytope, solid.volume);
   polytope.facets = &facets;
@@ -280,7 +280,7 @@ HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& 
   if (!solid) return {nullptr, HullFault::too_large, {}};
   data->solid = *solid;
   data->solid.inner_radius =
-      inner_radius(surface.faces, data->faces, data->vertices, solid->centre);
+      inner_radius_of(surface.faces, data->faces, data->vertices, solid->centre);
   data->edges = half_edges_of(surface.faces, data->vertices.size());
   data->bounds = bounds_of(data->vertices, options.radius);
   data->tolerance = options.tolerance;
