@@ -9,6 +9,7 @@
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
+#include "core/dynamics/body/inertia.h"
 #include "core/math/block_float.h"
 #include "core/math/product_sum.h"
 #include "core/math/roots.h"
@@ -28,6 +29,13 @@ inline constexpr int k_share_bits = 30;
     sum.add(s[i].raw, t[i].raw);
   }
   return sum.rounded(32);
+}
+
+/// Twice the kinetic energy for each mass: m²/s², Q32.
+[[nodiscard]] inline std::int64_t twice_energy(const Vec3<Velocity>& velocity,
+                                               const Vec3<Velocity>& spin,
+                                               const InverseInertia& inertia) {
+  return energy_product(velocity, velocity, spin, surface_velocity(inertia, spin));
 }
 
 /// a / b

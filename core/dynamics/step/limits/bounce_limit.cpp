@@ -10,14 +10,13 @@
 namespace lockstone {
 namespace {
 
-// Twice the kinetic energy for each mass.
-std::int64_t twice_energy(const BodyRecord& body, const InverseInertia& inertia) {
-  return energy_product(body.velocity, body.velocity, body.spin,
-                        surface_velocity(inertia, body.spin));
-}
-
 InverseInertia inertia_now(const BodyRecord& body) {
   return inverse_inertia(body, to_matrix(body.orientation));
+}
+
+// Twice the kinetic energy for each mass, where the body is.
+std::int64_t energy_now(const BodyRecord& body) {
+  return twice_energy(body.velocity, body.spin, inertia_now(body));
 }
 
 }  // namespace
@@ -50,8 +49,7 @@ void BounceLimit::note_gain(std::uint32_t number, const BodyRecord& body, const 
     work.add(constants.gain[static_cast<std::size_t>(i)],
              (body.position[i].raw - start.position[i].raw) * step_.substep_rate());
   // The inertia among the constants turns with bodies that have joints.
-  gained_[number] = twice_energy(body, inertia_now(body)) -
-                    twice_energy(start, inertia_now(start)) - work.rounded(31);
+  gained_[number] = energy_now(body) - energy_now(start) - work.rounded(31);
 }
 
 BounceLimit::Bounce BounceLimit::bounce_of(std::uint32_t number, const BodyRecord& body) const {

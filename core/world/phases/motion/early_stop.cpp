@@ -8,18 +8,6 @@
 #include "core/math/product_sum.h"
 
 namespace lockstone {
-namespace {
-
-// Twice, of each mass.
-std::int64_t twice_energy(const BodyRecord& body, const Quat& orientation,
-                          const BodySpeeds& speeds) {
-  const InverseInertia inertia = inverse_inertia(body, to_matrix(orientation));
-  return energy_product(speeds.velocity, speeds.velocity, speeds.spin,
-                        surface_velocity(inertia, speeds.spin));
-}
-
-}  // namespace
-
 // Twice, of each mass. `gain`: of the velocity in a tick, by gravity and forces.
 std::int64_t EarlyStop::work_on(const Vec3<Velocity>& gain, const Vec3<Position>& from,
                                 const Vec3<Position>& to) const {
@@ -38,11 +26,15 @@ void EarlyStop::add(const BodyRecord& body, const Transform& start, const BodySp
   const auto add = [&](std::int64_t& sum, std::int64_t each) {
     sum = raw::saturating_add(sum, scale_saturating(each, quotient(unit_, inverse), 0));
   };
-  const std::int64_t now = twice_energy(body, body.orientation, {body.velocity, body.spin});
+  const auto inertia_at = [&](const Quat& orientation) {
+    return inverse_inertia(body, to_matrix(orientation));
+  };
+  const std::int64_t now = twice_energy(body.velocity, body.spin, inertia_at(body.orientation));
+  const std::int64_t before =
+      twice_energy(start_speeds.velocity, start_speeds.spin, inertia_at(start.orientation));
   const Vec3<Velocity> gain = tick_gain(body, gravity_, step_);
   add(energy_, now);
-  add(gain_, now - twice_energy(body, start.orientation, start_speeds) -
-                 work_on(gain, start.position, stop));
+  add(gain_, now - before - work_on(gain, start.position, stop));
   add(lost_, work_on(gain, stop, body.position));
 }
 
