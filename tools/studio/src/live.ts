@@ -5,15 +5,15 @@ import type { Hit } from "../../web/src/queries.js";
 import type { Recording } from "../../web/src/recording.js";
 import { Chart } from "./charts.js";
 import { Controls } from "./controls.js";
-import { Facts, button, make, saveFile, section, select, toggle } from "./dom.js";
+import { Facts, button, make, saveFile, section, toggle } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { LiveStage } from "./live_stage.js";
 import type { Mode } from "./mode.js";
-import { OVERLAYS } from "./overlays.js";
-import { COLOURINGS, type Colouring, painterOf } from "./paint.js";
+import { type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
 import { Selection } from "./selection.js";
 import type { Live } from "./session.js";
+import { showSection } from "./show.js";
 
 const PUMP_MS = 4; // between looks at the network
 const PREDICTED = 8; // ticks that a player's page runs ahead
@@ -256,8 +256,6 @@ export class LiveView implements Mode {
   }
 
   private buildPanel(): void {
-    const switches = [...OVERLAYS, "sleeping", "triggers"].map((name) => toggle(name === "masses" ? "centre of mass" : name, `show-${name}`,
-      this.shown.has(name), (on) => void (on ? this.shown.add(name) : this.shown.delete(name))));
     this.panel.append(
       section("Match", this.facts.element, make("div", { class: "row" },
         button("Watch", "Watch as a spectator", () => void this.change("spectator"), "live-watch"),
@@ -267,8 +265,7 @@ export class LiveView implements Mode {
       make("p", {}, "WASD, arrows or a stick: move. Space, E, F, X or the pad's buttons: jump, push, grab, snowball.")),
       section("Connection", make("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.element))),
       section("Events", this.lines, this.chatOf()),
-      section("Show", make("div", { class: "row" }, ...switches),
-        select("colour", COLOURINGS, this.colour, (name) => (this.colour = name as Colouring), "colour by")),
+      showSection(this.shown, this.colour, (colour) => (this.colour = colour)),
       this.selection.element);
   }
 }

@@ -1,16 +1,16 @@
 // A log: watched, scrubbed, and proved tick by tick.
 import type { Hit } from "../../web/src/queries.js";
-import { Facts, button, make, section, select, toggle } from "./dom.js";
+import { Facts, button, make, section } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { LogFile, ORIGINS, inputText } from "./log_file.js";
 import { LogLane } from "./log_lane.js";
 import { LogStage, Proof } from "./log_stage.js";
 import type { Mode } from "./mode.js";
-import { OVERLAYS } from "./overlays.js";
-import { COLOURINGS, type Colouring, painterOf } from "./paint.js";
+import { type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
 import { type ProverNews, type ProverTask, SERIES } from "./prover.js";
 import { Selection } from "./selection.js";
+import { showSection } from "./show.js";
 
 const STATE_EVERY = 15; // ticks: a scrub computes fewer
 const FACTS = ["game", "build", "match", "seed", "length", "players", "end"] as const;
@@ -132,15 +132,12 @@ export class LogView implements Mode {
   }
 
   private buildPanel(): void {
-    const switches = [...OVERLAYS, "sleeping", "triggers"].map((name) => toggle(name === "masses" ? "centre of mass" : name, `show-${name}`,
-      this.shown.has(name), (on) => void (on ? this.shown.add(name) : this.shown.delete(name))));
     const late = this.log.origins.reduce((sum, origin) => sum + (origin === 1 || origin === 2 ? 1 : 0), 0);
     this.panel.append(
       section("Log", this.factsOf(), this.proof),
       section("Inputs of the next tick", this.inputs.element, make("p", {}, `late in all: ${late}`)),
       section("Events", this.log.events.length > 0 ? this.eventsOf() : make("p", {}, "none")),
-      section("Show", make("div", { class: "row" }, ...switches),
-        select("colour", COLOURINGS, this.colour, (name) => (this.colour = name as Colouring), "colour by")),
+      showSection(this.shown, this.colour, (colour) => (this.colour = colour)),
       this.selection.element);
   }
 }

@@ -5,20 +5,19 @@ import { Body, Motion } from "../../web/src/body.js";
 import { type Hit, castRay } from "../../web/src/queries.js";
 import { type Action, pull, push, remove, spawn } from "./action.js";
 import { Chart } from "./charts.js";
-import { Facts, button, make, section, select, toggle } from "./dom.js";
+import { Facts, button, make, section, select } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { type Seen, linkOf } from "./link.js";
 import type { Mode } from "./mode.js";
-import { OVERLAYS } from "./overlays.js";
 import { OwnScene } from "./own_scene.js";
 import { COLOURINGS, type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
 import { Selection } from "./selection.js";
+import { SWITCHES, showSection } from "./show.js";
 import { TestbedStage } from "./testbed_stage.js";
 
 const SHAPES = { box: c.LKS_BOX, ball: c.LKS_SPHERE, capsule: c.LKS_CAPSULE, cylinder: c.LKS_CYLINDER, cone: c.LKS_CONE, club: c.LKS_TAPERED_CAPSULE, die: c.LKS_ROUNDED_BOX } as const;
 const COUNTS = ["bodies", "awake", "asleep", "contacts", "points", "islands", "joints"] as const;
-const SWITCHES = [...OVERLAYS, "sleeping", "triggers"] as const;
 const NAMES: Record<string, string> = { masses: "centre of mass", contacts: "contacts, forces" };
 const THROW_SPEED = 20; // m/s
 
@@ -250,8 +249,6 @@ export class Testbed implements Mode {
     const names = this.engine.sceneNames();
     const seed = make("input", { type: "number", id: "seed", min: "1", value: String(this.lead.seed) });
     seed.onchange = () => this.change(this.lead.name, BigInt(Math.max(1, Math.trunc(Number(seed.value)) || 1)), this.lead.own);
-    const switches = SWITCHES.map((name) => toggle(NAMES[name] ?? name, `show-${name}`, this.shown.has(name),
-      (on) => void (on ? this.shown.add(name) : this.shown.delete(name))));
     this.panel.append(
       section("Scene", select("scene-name", names, this.lead.name, (name) => this.change(name, this.lead.seed), "scene"),
         make("label", { class: "field" }, make("span", {}, "seed"), seed), make("p", { id: "scene-text" }), this.fileOf()),
@@ -261,8 +258,7 @@ export class Testbed implements Mode {
           button("Drop", "Drop one in the middle (B)", () => this.drop(), "drop"),
           button("Push up", "Push the chosen body up (U)", () => this.pushChosen(), "push"),
           button("Remove", "Remove the chosen body (X)", () => this.removeChosen(), "remove")), this.told),
-      section("Show", make("div", { class: "row" }, ...switches),
-        select("colour", COLOURINGS, this.colour, (name) => (this.colour = name as Colouring), "colour by")),
+      showSection(this.shown, this.colour, (colour) => (this.colour = colour), NAMES),
       section("Figures", make("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.element)), this.counts.element),
       this.selection.element);
     this.tellScene();
