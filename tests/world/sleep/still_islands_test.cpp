@@ -43,6 +43,12 @@ struct StillStack {
   [[nodiscard]] std::uint32_t still_after_a_step() { return world.step().still_bodies; }
 };
 
+void make_belt(World& world, BodyHandle body) {
+  SetSurfaceMotion belt{body};
+  belt.motion.velocity.x = SolverVelocity::from_ratio(1, 1000);
+  ASSERT_EQ(world.apply(belt), Status::ok);
+}
+
 double newtons(Force force) {
   return test::number(force.raw, Force::frac_bits);
 }
@@ -137,13 +143,41 @@ TEST(StillIslands, EndWhenABodyArrives) {
 
 TEST(StillIslands, DoNotIncludeBodiesOnAMovingSurface) {
   World world = make_sleepless_world();
-  const BodyHandle ground = test::add_ground(world);
-  SetSurfaceMotion belt{ground};
-  belt.motion.velocity.x = SolverVelocity::from_ratio(1, 1000);
-  ASSERT_EQ(world.apply(belt), Status::ok);
+  make_belt(world, test::add_ground(world));
   add_stack(world, {}, 2);
   for (int i = 0; i < 120; ++i)
     EXPECT_EQ(world.step().still_bodies, 0U);
+}
+
+// A box on a belt without friction, and far away a box on a plate, which may be a belt.
+World make_smooth_belt(bool plate_is_belt) {
+  World world = make_sleepless_world();
+  make_belt(world, test::add_ground(world));
+  BodyDef smooth = test::dynamic_body(unit_box(), {}, 0.5_m, {});
+  smooth.material.friction = {};
+  test::add(world, smooth);
+  BodyDef plate = test::dynamic_body(unit_box(), 1000_m, {}, {});
+  plate.motion = MotionType::static_body;
+  const BodyHandle far_plate = test::add(world, plate);
+  if (plate_is_belt) make_belt(world, far_plate);
+  test::add(world, test::dynamic_body(unit_box(), 1000_m, 1_m, {}));
+  return world;
+}
+
+// Its contact differs in each tick, and it does not move: its count depends on nothing else.
+TEST(StillIslands, CountTicksWithoutLookingAtOtherIslands) {
+  World beside_still = make_smooth_belt(false), beside_belt = make_smooth_belt(true);
+  std::uint32_t still_bodies = 0;
+  for (int tick = 0; tick < 40; ++tick) {
+    still_bodies = beside_still.step().still_bodies;
+    EXPECT_EQ(beside_belt.step().still_bodies, 0U);
+    const StateDifference first =
+        beside_still.describe_difference(test::save(beside_still, SnapshotKind::canonical),
+                                         test::save(beside_belt, SnapshotKind::canonical));
+    ASSERT_EQ(first.store, "body") << first.to_line();
+    EXPECT_EQ(first.object, 2U) << "tick " << tick << ": " << first.to_line();
+  }
+  EXPECT_EQ(still_bodies, 1U);
 }
 
 TEST(StillIslands, DoNotIncludeBodiesInFreeFlight) {

@@ -65,11 +65,15 @@ void StillIslands::find() {
       [this](const JointLink& link) { return !has(link.body_a) && !has(link.body_b); });
 }
 
-// Whether any island may be still. From one tick before the last, so that differences of that tick
-// count.
+// From one tick before the last, so that differences of that tick count.
+bool StillIslands::is_nearly_still(const BodyRecord& body) const {
+  return body.still_ticks + 1 >= ticks_;
+}
+
+// Whether any island may be still.
 bool StillIslands::may_find() const {
   return std::ranges::any_of(world_.awake.list(), [&](std::uint32_t body) {
-    return world_.bodies[body].still_ticks + 1 >= ticks_;
+    return is_nearly_still(world_.bodies[body]);
   });
 }
 
@@ -124,10 +128,11 @@ bool StillIslands::differs(std::size_t contact) const {
          !has_same_points(found_.records[contact], found_.manifold_of(contact));
 }
 
-// The island begins to count again.
+// The body begins to count again, if it is about to be still. Fewer ticks are counted on, since
+// nothing is looked at while no body of the world is about to be still (may_find).
 void StillIslands::stir(std::uint32_t body) {
   islands_.mark_active(body);
-  world_.bodies[body].still_ticks = 0;
+  if (is_nearly_still(world_.bodies[body])) world_.bodies[body].still_ticks = 0;
 }
 
 void StillIslands::keep(std::uint32_t body) {

@@ -46,6 +46,7 @@ class StillIslands {
   [[nodiscard]] std::uint16_t count_on(const BodyRecord& body) const;
 
  private:
+  [[nodiscard]] bool is_nearly_still(const BodyRecord& body) const;
   [[nodiscard]] bool may_find() const;
   void look_at_bodies();
   void look_at_contacts();
