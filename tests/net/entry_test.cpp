@@ -129,6 +129,26 @@ TEST(Entry, SeatIsKeptForWhoHasItsKey) {
   match.expect_all_equal();
 }
 
+// It was cut off for four seconds before, and has ticks whose hashes it still owes.
+TEST(Entry, SeatIsKeptForWhoIsLostWhileItCatchesUp) {
+  for (const std::int64_t killed_ms : {6'200, 6'600, 7'000, 8'000, 9'000, 10'000}) {
+    MatchOptions options = rejoinable_match(2, 1800, 20);
+    options.faults.delay_us = 330'000;
+    Match match(options);
+    match.network.partition(*match.players[1].transport, 2 * k_second_us, 6 * k_second_us);
+    match.run_for(killed_ms * 1000);
+    const std::uint64_t key = match.players[1].client->rejoin_key();
+    match.network.kill(*match.players[1].transport);
+    match.players[1].paused = true;
+    match.run_for(7 * k_second_us);
+    EXPECT_EQ(match.server->counters().expelled, 0U) << killed_ms;
+    match.add_player(k_no_slot, key);
+    match.run_for(5 * k_second_us);
+    EXPECT_EQ(match.players.back().client->state(), ClientState::running) << killed_ms;
+    EXPECT_EQ(match.players.back().client->slot(), 1);
+  }
+}
+
 // The one that is gone had sent inputs far ahead, for ticks that its next life plays.
 TEST(Entry, InputsOfAFormerLifeAreForgotten) {
   MatchOptions options = rejoinable_match(2, 600, 14);

@@ -73,6 +73,7 @@ struct Seat : Follower {
   std::size_t dump_bytes_allowed = 0;   ///< of dumps that it was asked for and that may still come
   std::uint64_t hashes_had = 0;         ///< hashes below were here …
   std::int64_t hashes_since_us = 0;     ///< … since then, and others are owed
+  std::uint64_t hashes_since_tick = 0;  ///< and it had the ticks below this one
   bool condemned = false;  ///< its state was wrong: it is out until its case is settled
   bool expelled = false;   ///< and for good
   bool confirmed = false;  ///< its player has spoken since it was told its key

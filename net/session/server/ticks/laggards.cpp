@@ -70,7 +70,8 @@ void Laggards::drop_behind() {
 }
 
 // A player that takes ticks owes the hashes of the states after them: without these nobody could be
-// judged, and in a relay nobody else either.
+// judged, and in a relay nobody else either. One that is silent takes no ticks: it is dropped as
+// such, and may come back.
 void Laggards::drop_without_hashes() {
   const std::int64_t now_us = data_.match.now_us;
   for (std::uint8_t slot = 0; slot < data_.roster.seats().size(); ++slot) {
@@ -81,7 +82,9 @@ void Laggards::drop_without_hashes() {
     if (!owes || had != seat.hashes_had) {
       seat.hashes_had = had;
       seat.hashes_since_us = now_us;
-    } else if (now_us - seat.hashes_since_us > data_.config.timeouts.drop_us) {
+      seat.hashes_since_tick = seat.ticks_received;
+    } else if (now_us - seat.hashes_since_us > data_.config.timeouts.drop_us &&
+               seat.ticks_received > seat.hashes_since_tick + k_owed_hashes) {
       departures_.expel(slot, LeaveReason::no_hashes);
     }
   }
