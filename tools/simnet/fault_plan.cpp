@@ -1,5 +1,7 @@
 #include "tools/simnet/fault_plan.h"
 
+#include <algorithm>
+
 namespace lockstone::simnet {
 namespace {
 
@@ -57,6 +59,15 @@ std::int64_t FaultPlan::dead_until_us(std::size_t client) const {
     until_us = time_us(event.until_ms);
   }
   return until_us;
+}
+
+bool FaultPlan::has_just_come_back(std::size_t client, std::int64_t now_us) const {
+  constexpr std::int64_t k_margin_us = 50'000;  // steps, and pauses between packets
+  const std::int64_t since_us = now_us - 3 * (faults_of(client).delay_us + k_margin_us);
+  return std::any_of(schedule_.begin(), schedule_.end(), [&](const FaultEvent& event) {
+    return event.client == client && silences(event.kind) && time_us(event.from_ms) <= now_us &&
+           time_us(event.until_ms) >= since_us;
+  });
 }
 
 // Half of the forgeries look like messages.

@@ -50,6 +50,10 @@ class FaultPlan {
   /// The last moment of a client's death that is under way; 0: none is.
   [[nodiscard]] std::int64_t dead_until_us(std::size_t client) const;
 
+  /// Whether the client was cut off, or stood still, so lately that a message to it and back, and
+  /// one more to it, are still on their way.
+  [[nodiscard]] bool has_just_come_back(std::size_t client, std::int64_t now_us) const;
+
   /// Calls `forge(client, bytes)` for each packet that is forged in this step as from one of
   /// `clients`.
   template <class Forge>

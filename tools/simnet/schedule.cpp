@@ -41,10 +41,6 @@ constexpr std::array<Draw, k_fault_kinds> k_draws{{{60, 1'000, 300'000},
                                                    {50, 0, 1000},
                                                    {20, 0, 0}}};
 
-bool silences(FaultKind kind) {
-  return kind >= FaultKind::cut && kind <= FaultKind::kill;
-}
-
 std::uint32_t between(Random& random, std::uint32_t least, std::uint32_t most) {
   return least + static_cast<std::uint32_t>(random.below(most - least + 1));
 }
@@ -114,6 +110,10 @@ bool take(std::string_view& text, FaultEvent& event) {
 }
 
 }  // namespace
+
+bool silences(FaultKind kind) {
+  return kind >= FaultKind::cut && kind <= FaultKind::kill;
+}
 
 std::string_view to_string(FaultKind kind) {
   return k_names[static_cast<std::size_t>(kind)];

@@ -31,6 +31,9 @@ inline constexpr std::size_t k_fault_kinds = 16;
 
 [[nodiscard]] std::string_view to_string(FaultKind kind);
 
+/// Whether a client is not heard, or hears nothing, meanwhile.
+[[nodiscard]] bool silences(FaultKind kind);
+
 /// A set of kinds; bit n stands for FaultKind n.
 using FaultMask = std::uint32_t;
 inline constexpr FaultMask k_all_faults = (1U << k_fault_kinds) - 1;
