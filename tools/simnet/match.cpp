@@ -265,10 +265,12 @@ void SimMatch::commands_confirmed(std::uint64_t, std::span<const PlayerCommand> 
 
 void SimMatch::player_left(std::uint8_t slot, net::LeaveReason reason) {
   const Node& node = clients_.nodes()[slot];
+  // A client that has not entered, or was refused, is another life of the one that was lost.
+  const bool is_inside = node.alive() && node.client().state() >= net::ClientState::lobby &&
+                         node.client().state() != net::ClientState::refused;
   const bool expected =
-      clients_.is_liar(slot) || reason == net::LeaveReason::left ||
+      clients_.is_liar(slot) || !is_inside || reason == net::LeaveReason::left ||
       reason == net::LeaveReason::match_over || reason == net::LeaveReason::disconnected ||
-      !node.alive() || node.client().state() < net::ClientState::lobby ||
       (reason == net::LeaveReason::timed_out && faults_.has_just_come_back(slot, now_us_));
   if (!expected) {
     oracle_.fail(fmt::format("tick {}: client {} was lost: {}", server_->ticks_confirmed(), slot,

@@ -1,4 +1,5 @@
 // How a match is played: drawn from its seed, told in words.
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -12,7 +13,11 @@ namespace lockstone::simnet {
 using net::Random;
 
 std::uint32_t heal_ms(std::uint64_t ticks, std::uint16_t tick_rate) {
-  return static_cast<std::uint32_t>(ticks * 850 / tick_rate);
+  // A server takes five seconds to miss a player that died, and in a relay nobody enters before.
+  constexpr std::int64_t k_time_to_enter_ms = 9'000;
+  const auto match_ms = static_cast<std::int64_t>(ticks * 1000 / tick_rate);
+  return static_cast<std::uint32_t>(
+      std::min(match_ms * 85 / 100, std::max(match_ms - k_time_to_enter_ms, match_ms / 2)));
 }
 
 MatchMode draw_mode(std::uint64_t seed, std::size_t clients, std::uint32_t heal_ms) {

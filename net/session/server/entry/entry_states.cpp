@@ -67,6 +67,11 @@ void EntryStates::capture() {
   entry_.ready = true;
 }
 
+bool EntryStates::is_silent(const Seat& seat) const {
+  return seat.peer == nullptr ||
+         seat.peer->watch.silent_us(data_.match.now_us) > data_.config.timeouts.silence_warning_us;
+}
+
 // Asks one player after another for the newest state that all agreed on.
 void EntryStates::ask_donor() {
   entry_.ready = false;
@@ -76,7 +81,7 @@ void EntryStates::ask_donor() {
   for (std::size_t i = 0; i < count; ++i) {
     const auto donor = static_cast<std::uint8_t>(donation_.next_donor++ % count);
     const Seat& seat = data_.roster.seat(donor);
-    if (!seat.plays(data_.match.confirmed) || cases_.concern(donor)) continue;
+    if (!seat.plays(data_.match.confirmed) || cases_.concern(donor) || is_silent(seat)) continue;
     donation_.under_way = true;
     donation_.since_us = data_.match.now_us;
     entry_.ticks = agreed;
@@ -89,10 +94,9 @@ void EntryStates::ask_donor() {
 void EntryStates::advance() {
   if (!donation_.under_way) return;
   DumpTransfer& transfer = donation_.transfer;
-  const bool gone = data_.roster.seat(transfer.slot).peer == nullptr;
   const bool late =
       data_.match.now_us - donation_.since_us > k_donor_patience_us + data_.config.timeouts.dump_us;
-  if (!transfer.done && !gone && !late) return;
+  if (!transfer.done && !late && !is_silent(data_.roster.seat(transfer.slot))) return;
   donation_.under_way = false;
   entry_.ready = transfer.done && !transfer.bytes.empty();
   if (!entry_.ready) return;

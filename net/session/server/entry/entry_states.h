@@ -67,6 +67,7 @@ class EntryStates {
 
   [[nodiscard]] bool is_in_use() const;
   void capture();
+  [[nodiscard]] bool is_silent(const Seat& seat) const;
   void ask_donor();
   [[nodiscard]] ByteView bytes_of(const Follower& follower) const;
 
