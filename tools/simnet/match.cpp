@@ -177,7 +177,7 @@ MatchOutcome SimMatch::run() {
   return result;
 }
 
-// Returns how many clients were on the way in when a fast match was over.
+// Returns how many clients were cut off, or on the way in, when a fast match was over.
 std::uint64_t SimMatch::check_end() {
   if (server_->state() != net::ServerState::over) {
     oracle_.fail(fmt::format("no progress: {} of {} ticks after {} ms", server_->ticks_confirmed(),
@@ -204,10 +204,11 @@ std::uint64_t SimMatch::check_end() {
 }
 
 // The faults heal early enough before the end by the tick rate. A fast match is over long before,
-// and may be while somebody is still on the way in. A client that had the time that it has in other
-// matches after the last fault must be in.
+// and may be while somebody is cut off or still on the way in. A client that had the time that it
+// has in other matches after the last fault must be in.
 bool SimMatch::came_too_late(std::size_t client) const {
   if (mode_.pacing != net::Pacing::fast || over_us_ < 0) return false;
+  if (faults_.has_just_come_back(client, over_us_)) return true;  // or is still cut off
   const std::uint16_t rate = simulation_->info().tick_rate;
   const std::int64_t match_ms = static_cast<std::int64_t>(setup_.ticks * 1000 / rate);
   const std::int64_t healed_ms = match_ms - heal_ms(setup_.ticks, rate);
