@@ -73,7 +73,7 @@ struct MatchOutcome {
   std::uint64_t refused_packets = 0;  ///< damaged or forged
   std::uint64_t kills = 0;
   std::uint64_t entries = 0;   ///< into a running match: late, or back
-  std::uint64_t too_late = 0;  ///< on the way in when a fast match was over
+  std::uint64_t too_late = 0;  ///< cut off or on the way in when a fast match was over
   std::uint64_t rollbacks = 0;
   std::uint64_t virtual_ms = 0;
   std::size_t peak_bytes = 0;  ///< on the way, at once
