@@ -135,6 +135,26 @@ struct Scene {
   }
 };
 
+inline void expect_flipped(const Manifold& m, const Manifold& f) {
+  ASSERT_EQ(m.count, f.count);
+  EXPECT_EQ(m.normal, -f.normal);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
+    EXPECT_EQ(m.points[i].anchor_a, f.points[i].anchor_b);
+    EXPECT_EQ(m.points[i].anchor_b, f.points[i].anchor_a);
+    EXPECT_EQ(m.points[i].separation, f.points[i].separation);
+    EXPECT_EQ(m.points[i].feature, f.points[i].feature);
+  }
+}
+
+/// The features that a pair with this manifold holds a tick later.
+inline HeldFeatures held_by(const Manifold& manifold) {
+  HeldFeatures held;
+  held.count = manifold.count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i)
+    held.features[i] = manifold.points[i].feature;
+  return held;
+}
+
 inline std::string describe(const Mat3& m) {
   std::string text;
   for (int column = 0; column < 3; ++column) {

@@ -31,9 +31,16 @@ namespace lockstone::geometry {
                                      const Vec3<Length>& offset);
 
 /// A is preferred as the owner of the reference face. With `flip` the manifold is that of B and A,
-/// flipped. `out` is filled again.
+/// flipped. `held`: as in `collide`. `out` is filled again.
 void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                   Length margin, bool flip, Manifold& out);
+                   Length margin, bool flip, const HeldFeatures& held, Manifold& out);
+
+/// Whether this feature of a point of two boxes is that of two edges.
+[[nodiscard]] bool is_of_edges(std::uint32_t feature);
+
+/// Whether it is of a face, and of one of the second box: the one that does not come first.
+[[nodiscard]] bool is_of_face(std::uint32_t feature);
+[[nodiscard]] bool is_of_second_face(std::uint32_t feature);
 
 /// Of the deepest features of B, up to four points: a sphere's pole, the poles of a capsule's ends
 /// (features 0 and 1; of a

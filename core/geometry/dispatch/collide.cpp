@@ -77,22 +77,27 @@ Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Le
 }
 
 void collide_two_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                       Length margin, Manifold& out) {
+                       Length margin, const HeldFeatures& held, Manifold& out) {
   if (!geometry::box_belongs_first(b, a, offset))
-    return geometry::collide_boxes(a, b, offset, margin, false, out);
+    return geometry::collide_boxes(a, b, offset, margin, false, held, out);
   const Vec3<Length> back = -offset;
-  geometry::collide_boxes(b, a, back, margin, true, out);
+  geometry::collide_boxes(b, a, back, margin, true, held, out);
 }
 
 }  // namespace
 
 void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
-             Manifold& out) {
+             const HeldFeatures& held, Manifold& out) {
   LKS_ASSERT(margin >= Length{} && margin <= Length::from_integer(64));
   if (a.shape.kind == ShapeKind::box && b.shape.kind == ShapeKind::box)
-    return collide_two_boxes(a, b, offset, margin, out);
+    return collide_two_boxes(a, b, offset, margin, held, out);
   out = belongs_first(b, a, offset) ? geometry::flipped(collide_ordered(b, a, -offset, margin))
                                     : collide_ordered(a, b, offset, margin);
+}
+
+void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
+             Manifold& out) {
+  collide(a, b, offset, margin, {}, out);
 }
 
 Manifold collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,

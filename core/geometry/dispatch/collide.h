@@ -41,6 +41,14 @@ namespace lockstone {
 void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
              Manifold& out);
 
+/// As above, with the features of the pair's points a tick ago, in the same order of A and B. Of
+/// two boxes, edges that met then do so until a face or other edges overlap less, by a tenth and
+/// 0.5 mm; the face whose plane the contact had then keeps it until the other box's is better, by
+/// 1/32 and 0.25 mm; and of more than four points those that were taken are, until another is 0.5 mm
+/// deeper.
+void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
+             const HeldFeatures& held, Manifold& out);
+
 /// True when A and B overlap or touch: for triggers. Agrees with collide(margin 0) having a point
 /// with separation ≤ 0.
 [[nodiscard]] bool overlaps(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset);

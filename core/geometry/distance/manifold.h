@@ -38,6 +38,21 @@ struct Manifold {
   std::array<ManifoldPoint, k_max_manifold_points> points{};
 };
 
+/// The features of a pair's points a tick ago, if it had one manifold: for choices that must not
+/// change back and forth while bodies come to rest.
+struct HeldFeatures {
+  std::array<std::uint32_t, k_max_manifold_points> features{};
+  int count = 0;
+
+  friend bool operator==(const HeldFeatures&, const HeldFeatures&) = default;
+  [[nodiscard]] std::uint32_t first() const { return count == 0 ? 0 : features[0]; }
+  [[nodiscard]] bool has(std::uint32_t feature) const {
+    for (int i = 0; i < count; ++i)
+      if (features[static_cast<std::size_t>(i)] == feature) return true;
+    return false;
+  }
+};
+
 /// One side of a pair. The rotation is that of the body, rounded once per tick and shared by all
 /// pairs.
 struct PosedShape {

@@ -128,4 +128,8 @@ template <class T>
       raw::saturate<std::int32_t>(raw::round_shift(length, k_fine_per_displacement)));
 }
 
+[[nodiscard]] constexpr Fine fine(Displacement separation) {
+  return Fine{separation.raw} << k_fine_per_displacement;
+}
+
 }  // namespace lockstone::geometry

@@ -168,7 +168,7 @@ TEST(BoxClip, WhereABallIsSharedNoEdgeOverlapsLess) {
     if (face.separation > 0 || -face.separation > pair.half_a[face.axis] / 8) continue;
     const Fine wanted = dice.between(0, 2 * -face.separation);
     Manifold manifold;
-    const bool is_shared = geometry::face_manifold(pair, face, of_b, false, wanted, manifold);
+    const bool is_shared = geometry::face_manifold(pair, face, of_b, false, wanted, {}, manifold);
     shared += is_shared ? 1 : 0;
     open += is_shared ? 0 : 1;
     if (is_shared) {

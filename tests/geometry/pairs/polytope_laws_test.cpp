@@ -98,17 +98,6 @@ TEST(CollidePolytope, AnchorsLieOnTheRoundSurfaceOrMidway) {
   });
 }
 
-void expect_flipped(const Manifold& m, const Manifold& f) {
-  ASSERT_EQ(m.count, f.count);
-  EXPECT_EQ(m.normal, -f.normal);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
-    EXPECT_EQ(m.points[i].anchor_a, f.points[i].anchor_b);
-    EXPECT_EQ(m.points[i].anchor_b, f.points[i].anchor_a);
-    EXPECT_EQ(m.points[i].separation, f.points[i].separation);
-    EXPECT_EQ(m.points[i].feature, f.points[i].feature);
-  }
-}
-
 TEST(CollidePolytope, SwappingTheShapesFlipsTheManifoldBitForBit) {
   for_random_polytope_scenes(2 * k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     expect_flipped(scene.collide(),

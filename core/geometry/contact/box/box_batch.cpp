@@ -52,7 +52,7 @@ bool BoxBatch::takes(const Shape& a, const Shape& b, const Vec3<Length>& offset)
 }
 
 void BoxBatch::add(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                   Length margin) {
+                   Length margin, const HeldFeatures& held) {
   LKS_ASSERT(size_ < k_capacity && takes(a.shape, b.shape, offset));
   const bool flip = box_belongs_first(b, a, offset);
   const PosedShape& first = flip ? b : a;
@@ -65,6 +65,7 @@ void BoxBatch::add(const PosedShape& a, const PosedShape& b, const Vec3<Length>&
   copy(flip ? -offset : offset, source.offset);
   source.margin = margin.raw;
   flips_[size_] = flip ? 1 : 0;
+  held_[size_] = held;
   ++size_;
 }
 
@@ -83,13 +84,16 @@ void BoxBatch::settle(std::size_t pair) {
   counts_[pair] = 0;
   const bool apart = face.separation > 0;
   if (face.is_apart != 0 || (!apart && face.is_shallow == 0)) return;
+  const std::uint32_t held = held_[pair].first();
+  const bool of_b = (face.common >> 12 & 1) != 0;
+  if (!apart && is_of_face(held) && is_of_second_face(held) != of_b) return;
   swapped_[pair] = flips_[pair] ^ (face.common >> 12 & 1);
   Clipping clipping;
   const ClipPolygon& polygon = clipping.clip(face);
   KeptVertices kept(polygon, Length::from_raw(sources_[pair].margin));
   if (kept.count == 0 || (!apart && !rules_out_edges(polygon, face))) return;
   kept.sort();
-  const ChosenVertices chosen(polygon, kept);
+  const ChosenVertices chosen(polygon, kept, static_cast<std::uint32_t>(face.common), held_[pair]);
   for (std::size_t i = 0; i < chosen.count; ++i) {
     const ClipVertex& v = *chosen.vertices[i];
     points[i] = {v.at[0], v.at[1], v.at[2], face.common | chosen.edges[i]};

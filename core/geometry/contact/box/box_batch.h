@@ -24,7 +24,8 @@ class BoxBatch {
   void clear() { size_ = 0; }
 
   /// Of a pair that it takes; there is room.
-  void add(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin);
+  void add(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
+           const HeldFeatures& held);
   void collide();
 
   /// After `collide`. A settled pair has points.
@@ -35,6 +36,7 @@ class BoxBatch {
   void settle(std::size_t pair);
 
   std::array<lanes::BoxSource, k_capacity> sources_{};
+  std::array<HeldFeatures, k_capacity> held_{};
   std::array<lanes::FaceMeeting, k_capacity> meetings_{};
   std::array<lanes::FourPoints, k_capacity> points_{};
   std::array<lanes::FourPlaced, k_capacity> placed_{};

@@ -111,6 +111,16 @@ EdgeContact edge_contact(const BoxPair& pair, const EdgeAxis& axis) {
   return result;
 }
 
+bool is_of_edges(std::uint32_t feature) {
+  return feature >> 13 == k_edge_bits >> 13;
+}
+
+EdgeAxis edge_axis_of(const BoxPair& pair, std::uint32_t feature) {
+  LKS_ASSERT(is_of_edges(feature));
+  const auto axis = [](std::uint32_t index) { return static_cast<int>(index >> 2 & 3) % 3; };
+  return edge_axis(pair, axis(feature >> 4), axis(feature));
+}
+
 Manifold vertex_manifold(const BoxPair& pair) {
   const NearestCorner best = nearest_vertex(pair);
   Manifold manifold;

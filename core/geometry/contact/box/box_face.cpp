@@ -195,8 +195,16 @@ class FacePoints {
 
 }  // namespace
 
+bool is_of_face(std::uint32_t feature) {
+  return feature >> 13 == 1;
+}
+
+bool is_of_second_face(std::uint32_t feature) {
+  return feature >> 12 == 3;
+}
+
 bool face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool flip, Fine wanted,
-                   Manifold& out) {
+                   const HeldFeatures& held, Manifold& out) {
   const FaceFrame frame(pair, face, of_b, flip);
   const FaceMeeting meeting = meeting_of(frame);
   Clipping clipping;
@@ -209,7 +217,7 @@ bool face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool fl
     const auto common = static_cast<std::uint32_t>(meeting.common);
     out.normal = unit_axis(frame.flip ? -points.up() : points.up());
     kept.sort();
-    const ChosenVertices chosen(polygon, kept);
+    const ChosenVertices chosen(polygon, kept, common, held);
     for (std::size_t i = 0; i < chosen.count; ++i)
       points.add(*chosen.vertices[i], common | chosen.edges[i], out);
   }

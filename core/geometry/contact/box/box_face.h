@@ -13,11 +13,11 @@ namespace lockstone::geometry {
 /// the direction of an edge matters. A vertex beyond a side by less than k_snap counts as on it and
 /// keeps its feature, so that boxes stacked flush do not change features as they tremble; not on a
 /// steep face, where the height would change too much. Of more than four points `reduce_to_four`
-/// keeps four.
+/// keeps four, those that are held if it can.
 /// Returns whether the boxes are known to overlap by `wanted` along every axis, because they share
 /// a ball of that diameter; at 0 a point will do. False where the polygon alone does not show it,
 /// and for `wanted` < 0.
 bool face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool flip, Fine wanted,
-                   Manifold& out);
+                   const HeldFeatures& held, Manifold& out);
 
 }  // namespace lockstone::geometry

@@ -117,15 +117,6 @@ Fine separation_on(const BoxPair& pair, const Vec3<Unit>& normal) {
          reach(pair.b.shape.size, along_columns(pair.b.rotation, normal));
 }
 
-EdgeAxis edge_axis(const BoxPair& pair, int i, int j) {
-  const RawVec k = cross_of(pair.a.rotation.column(i), pair.b.rotation.column(j));
-  EdgeAxis result;
-  if (k == RawVec{}) return result;
-  const Vec3<Unit> normal = direction_of(k.x, k.y, k.z);
-  const Fine apart = lockstone::dot(normal, pair.offset).raw;
-  return {true, i, j, signed_axis(normal, sign_of(apart)), separation_on(pair, normal)};
-}
-
 }  // namespace
 
 BoxPair make_box_pair(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
@@ -165,6 +156,15 @@ FaceAxis best_face_of_b(const BoxPair& pair) {
     if (j == 0 || separation > best.separation) best = {j, sign_of(centre), separation};
   }
   return best;
+}
+
+EdgeAxis edge_axis(const BoxPair& pair, int axis_a, int axis_b) {
+  const RawVec k = cross_of(pair.a.rotation.column(axis_a), pair.b.rotation.column(axis_b));
+  EdgeAxis result;
+  if (k == RawVec{}) return result;
+  const Vec3<Unit> normal = direction_of(k.x, k.y, k.z);
+  const Fine apart = lockstone::dot(normal, pair.offset).raw;
+  return {true, axis_a, axis_b, signed_axis(normal, sign_of(apart)), separation_on(pair, normal)};
 }
 
 EdgeAxis best_edge(const BoxPair& pair, Fine threshold) {

@@ -43,6 +43,9 @@ struct EdgeAxis {
   Fine separation = 0;
 };
 
+/// The cross product of two edges, by the axes of A and B that they lie along.
+[[nodiscard]] EdgeAxis edge_axis(const BoxPair& pair, int axis_a, int axis_b);
+
 /// The best edge axis with a separation above `threshold`, if there is one; the first of equals.
 [[nodiscard]] EdgeAxis best_edge(const BoxPair& pair, Fine threshold);
 

@@ -179,10 +179,12 @@ struct ChosenVertices {
   std::size_t count;
   std::array<ClipVertex, 4> reduced;
 
-  ChosenVertices(const ClipPolygon& polygon, const KeptVertices& kept)
+  /// `common`: the part of the features that names the faces.
+  ChosenVertices(const ClipPolygon& polygon, const KeptVertices& kept, std::uint32_t common,
+                 const HeldFeatures& held)
       : count(static_cast<std::size_t>(kept.count)) {
     if (kept.count > 4 || kept.repeats()) {
-      reduce(polygon, kept);
+      reduce(polygon, kept, common, held);
       return;
     }
     LKS_ASSERT(count > 0);
@@ -195,21 +197,24 @@ struct ChosenVertices {
   ChosenVertices& operator=(const ChosenVertices&) = delete;
 
  private:
-  void reduce(const ClipPolygon& polygon, const KeptVertices& kept) {
+  static constexpr std::uint32_t k_edge_pair = 63;
+
+  void reduce(const ClipPolygon& polygon, const KeptVertices& kept, std::uint32_t common,
+              const HeldFeatures& held) {
     std::array<FaceVertex, ClipPolygon::k_capacity> faces;
     for (std::size_t i = 0; i < count; ++i) {
       const std::array<Fine, 3>& at = kept.vertex(polygon, i).at;
-      faces[i] = {at[0], at[1], at[2], kept.keys[i] >> 3};
+      faces[i] = {at[0], at[1], at[2], common | kept.keys[i] >> 3};
     }
     const auto all = std::span(faces).first(count);
-    count =
-        static_cast<std::size_t>(kept.repeats() ? reduce_to_four(all, k_fine_per_length)
-                                                : reduce_sorted_to_four(all, k_fine_per_length));
+    count = static_cast<std::size_t>(kept.repeats()
+                                         ? reduce_to_four(all, k_fine_per_length)
+                                         : reduce_sorted_to_four(all, k_fine_per_length, held));
     LKS_ASSERT(count > 0 && count <= k_max_manifold_points);
     for (std::size_t i = 0; i < count; ++i) {
       reduced[i] = {{faces[i].x, faces[i].y, faces[i].z}, 0};
       vertices[i] = &reduced[i];
-      edges[i] = faces[i].feature;
+      edges[i] = faces[i].feature & k_edge_pair;
     }
   }
 };

@@ -28,10 +28,11 @@ struct FaceChoice {
 struct BoxMeeting {
   const BoxPair& pair;
   FaceChoice faces;
-  bool flip;  ///< whether the manifold is that of B and A
+  bool flip;                 ///< whether the manifold is that of B and A
+  const HeldFeatures& held;  ///< of a tick ago
 
   bool on_face_of(bool of_b, Fine wanted, Manifold& out) const {
-    return face_manifold(pair, of_b ? faces.b : faces.a, of_b, flip, wanted, out);
+    return face_manifold(pair, of_b ? faces.b : faces.a, of_b, flip, wanted, held, out);
   }
   void on_reference(Manifold& out) const { (void)on_face_of(faces.b_is_reference, -1, out); }
   void on_other(Manifold& out) const { (void)on_face_of(!faces.b_is_reference, -1, out); }
@@ -79,12 +80,43 @@ void collide_apart(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& ou
   meeting.take(vertex_manifold(meeting.pair), out);
 }
 
+/// The face whose plane the contact had a tick ago remains the reference while its points overlap
+/// no more than the other's plane shows, up to the margins of second_face_threshold. `out` is
+/// scratch.
+void hold_face(BoxMeeting& meeting, Manifold& out) {
+  FaceChoice& faces = meeting.faces;
+  const std::uint32_t held = meeting.held.first();
+  LKS_ASSERT(faces.separation() <= 0);
+  if (!is_of_face(held) || is_of_second_face(held) == faces.b_is_reference) return;
+  (void)meeting.on_face_of(!faces.b_is_reference, -1, out);
+  const Fine deepest = deepest_of(out);
+  if (deepest <= 0 && second_face_threshold(deepest) >= faces.separation())
+    faces.b_is_reference = !faces.b_is_reference;
+}
+
+/// Two edges that met a tick ago go on doing so until a face or other edges overlap clearly less:
+/// boxes that lean on each other would not come to rest if the features that hold them changed in
+/// each tick. Not where a face pushes nearly the same way: several points hold better than one.
+/// Returns whether `out` is their manifold.
+bool keep_edges(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) {
+  LKS_ASSERT(meeting.faces.separation() <= 0);
+  if (!edge.found || edge.separation > 0) return false;
+  const Fine better = std::min(edge_threshold(edge.separation), Fine{0});
+  if (best_edge(meeting.pair, better).found) return false;
+  meeting.on_reference(out);
+  const Fine face = deepest_of(out);
+  const bool is_face_better =
+      face <= 0 && (are_alike(out.normal, meeting.flip ? -edge.normal : edge.normal) ||
+                    edge.separation < held_edge_threshold(face));
+  return !is_face_better && meeting.take_edges(edge, out);
+}
+
 }  // namespace
 
 void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                   Length margin, bool flip, Manifold& out) {
+                   Length margin, bool flip, const HeldFeatures& held, Manifold& out) {
   const BoxPair pair = make_box_pair(a, b, offset, margin);
-  BoxMeeting meeting{pair, {}, flip};
+  BoxMeeting meeting{pair, {}, flip, held};
   FaceChoice& faces = meeting.faces;
   faces.a = best_face_of_a(pair);
   if (!keeps(faces.a.separation, margin))
@@ -101,6 +133,9 @@ void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>&
     if (attains(out, separation)) return;
     return collide_apart(meeting, best_edge(pair, separation), out);
   }
+  hold_face(meeting, out);
+  if (is_of_edges(held.first()) && keep_edges(meeting, edge_axis_of(pair, held.first()), out))
+    return;
   // For a box that lies on a face, the polygon mostly shows that the boxes overlap along every axis
   // by too much for an edge.
   const Fine threshold = std::min(edge_threshold(separation), Fine{0});
@@ -113,6 +148,11 @@ void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>&
     return collide_overlapping(meeting, out);
   }
   if (edge.separation > 0) return collide_apart(meeting, edge, out);
+  // The face's plane may show more overlap than its points do: an edge that lies nearly along it
+  // and protrudes beyond it overlaps most where there is no face.
+  if (!shallow) meeting.on_reference(out);
+  const Fine deepest = deepest_of(out);
+  if (deepest <= 0 && edge.separation <= edge_threshold(deepest)) return;
   if (!meeting.take_edges(edge, out)) meeting.take_nearest(out);
 }
 

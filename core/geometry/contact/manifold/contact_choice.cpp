@@ -5,6 +5,7 @@
 #include <lockstone/assert.h>
 
 #include "core/geometry/contact/manifold/contact_tolerances.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 
 namespace lockstone::geometry {
@@ -22,13 +23,29 @@ bool attains(const Manifold& manifold, Fine separation) {
 }
 
 bool touches(const Manifold& manifold) {
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   for (int i = 0; i < manifold.count; ++i) {
     if (manifold.points[static_cast<std::size_t>(i)].separation.raw <= 0) return true;
   }
   return false;
 }
 
+bool are_alike(const Vec3<Unit>& a, const Vec3<Unit>& b) {
+  LKS_ASSERT(is_unit(a) && is_unit(b));
+  constexpr std::int64_t k_cosine = Unit::from_ratio(97, 100).raw;
+  return dot(a, b).raw >= k_cosine * (std::int64_t{1} << Unit::frac_bits);
+}
+
+Fine deepest_of(const Manifold& manifold) {
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
+  Fine deepest = 1;
+  for (int i = 0; i < manifold.count; ++i)
+    deepest = std::min(deepest, fine(manifold.points[static_cast<std::size_t>(i)].separation));
+  return deepest;
+}
+
 Manifold separated_by(const Vec3<Unit>& normal) {
+  LKS_ASSERT(is_unit(normal));
   Manifold manifold;
   manifold.normal = unit_axis(normal);
   return manifold;

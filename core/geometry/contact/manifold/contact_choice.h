@@ -12,6 +12,12 @@ namespace lockstone::geometry {
 /// Whether some point touches or overlaps.
 [[nodiscard]] bool touches(const Manifold& manifold);
 
+/// Whether a push along one normal is nearly one along the other: within 14°.
+[[nodiscard]] bool are_alike(const Vec3<Unit>& a, const Vec3<Unit>& b);
+
+/// The separation of the deepest point; positive where nothing touches.
+[[nodiscard]] Fine deepest_of(const Manifold& manifold);
+
 /// A manifold without points whose normal is that of a plane which separates by more than the
 /// margin.
 [[nodiscard]] Manifold separated_by(const Vec3<Unit>& normal);

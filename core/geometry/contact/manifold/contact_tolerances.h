@@ -1,5 +1,5 @@
-// How much better a less stable choice must be before it is taken. Fixed margins of the arguments
-// alone: there is no memory of the last tick to keep a choice from changing back and forth.
+// How much better a less stable choice must be before it is taken, and a choice of the tick before
+// be left.
 #pragma once
 
 #include "core/geometry/numeric/q50.h"
@@ -26,6 +26,12 @@ inline constexpr Fine k_snap = Fine{1} << (k_fine_bits - 15);
 /// b3CollideHulls.
 [[nodiscard]] constexpr Fine edge_threshold(Fine face) {
   return face - face / 10 + k_edge_margin;
+}
+
+/// A face axis of separation `face` replaces two edges that met a tick ago only where their
+/// separation is below this value: an overlap larger by a tenth and by k_edge_margin.
+[[nodiscard]] constexpr Fine held_edge_threshold(Fine face) {
+  return face + face / 10 - k_edge_margin;
 }
 
 /// The second shape's face replaces the first's only above this value.

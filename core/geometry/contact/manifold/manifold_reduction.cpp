@@ -141,6 +141,36 @@ void select_four(Selection& selection) {
   LKS_ASSERT(selection.count > 0 && selection.count <= 4);
 }
 
+/// Returns whether four vertices are held.
+bool take_held(Selection& selection, const HeldFeatures& held) {
+  LKS_ASSERT(selection.size() > 4 && selection.count == 0);
+  if (held.count < 4) return false;
+  for (int i = 0; i < selection.size() && selection.count < 4; ++i)
+    if (held.has(selection.polygon[static_cast<std::size_t>(i)].feature)) selection.take(i);
+  if (selection.count == 4) return true;
+  selection.taken = {-1, -1, -1, -1};
+  selection.count = 0;
+  return false;
+}
+
+/// The deepest vertex that is left out, if it touches, in place of the highest of the four, if it
+/// is clearly deeper: so those remain that carry something.
+void include_deeper(Selection& selection) {
+  LKS_ASSERT(selection.count == 4);
+  int deepest = -1;
+  for (int i = 0; i < selection.size(); ++i)
+    if (!selection.has(i) && (deepest < 0 || selection.height(i) < selection.height(deepest)))
+      deepest = i;
+  LKS_ASSERT(deepest >= 0);
+  std::size_t highest = 0;
+  for (std::size_t i = 1; i < 4; ++i)
+    if (selection.height(selection.taken[i]) > selection.height(selection.taken[highest]))
+      highest = i;
+  const Fine height = selection.height(deepest);
+  if (height <= 0 && height < selection.height(selection.taken[highest]) - k_held_deeper)
+    selection.taken[highest] = deepest;
+}
+
 /// The lowest of repeated features first.
 void sort_by_feature(std::span<FaceVertex> polygon) {
   std::sort(polygon.begin(), polygon.end(), [](const FaceVertex& a, const FaceVertex& b) {
@@ -166,13 +196,17 @@ int drop_far_vertices(std::span<FaceVertex> polygon, Length margin) {
 
 int reduce_to_four(std::span<FaceVertex> polygon, int shift) {
   sort_by_feature(polygon);
-  return reduce_sorted_to_four(without_repeats(polygon), shift);
+  return reduce_sorted_to_four(without_repeats(polygon), shift, {});
 }
 
-int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift) {
+int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift, const HeldFeatures& held) {
   if (polygon.size() <= 4) return static_cast<int>(polygon.size());
   Selection selection(polygon, shift);
-  select_four(selection);
+  if (take_held(selection, held))
+    include_deeper(selection);
+  else
+    select_four(selection);
+  LKS_ASSERT(selection.count > 0 && selection.count <= 4);
   // By index is by feature, and no vertex moves up past one that is still needed.
   sort_few(std::span(selection.taken).first(static_cast<std::size_t>(selection.count)));
   for (std::size_t i = 0; i < static_cast<std::size_t>(selection.count); ++i)

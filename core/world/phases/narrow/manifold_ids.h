@@ -41,11 +41,13 @@ struct ManifoldInput {
   Vec3<Position> offset{};
   PoseKey pose_a{}, pose_b{};
   Length margin{};
+  HeldFeatures held{};
 
   friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
   /// Where poses tell all: recycling poses do.
   [[nodiscard]] bool has_same_poses(const ManifoldInput& other) const {
-    return pose_a == other.pose_a && pose_b == other.pose_b && margin == other.margin;
+    return pose_a == other.pose_a && pose_b == other.pose_b && margin == other.margin &&
+           held == other.held;
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/dispatch/collide.h"
 #include "core/geometry/distance/separation.h"
 #include "core/world/phases/narrow/contact_surfaces.h"
@@ -13,6 +14,21 @@
 #include "core/world/phases/narrow/one_way.h"
 
 namespace lockstone {
+
+namespace {
+
+// Of two boxes that had a contact a tick ago; other pairs hold nothing.
+HeldFeatures held_features(std::span<const ContactRecord> before, const Shape& a, const Shape& b) {
+  HeldFeatures held;
+  if (before.size() != 1 || a.kind != ShapeKind::box || b.kind != ShapeKind::box) return held;
+  LKS_ASSERT(before.front().count <= held.features.size());
+  held.count = before.front().count;
+  for (std::size_t i = 0; i < before.front().count; ++i)
+    held.features[i] = before.front().points[i].feature;
+  return held;
+}
+
+}  // namespace
 
 // Where the two are, to the length that primitives are collided with; frames of assets, and where a
 // half-space is met, follow from every bit.
@@ -45,6 +61,7 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
   } else {
     read_poses(pair, margin, input);
   }
+  input.held = held_features(before, a.shape(), b.shape());
   const std::uint32_t known = remembered_manifold(before);
   const bool is_known = known != ManifoldIds::k_none &&
                         (is_recycled ? data_.notes_before.inputs[known].has_same_poses(input)
@@ -119,10 +136,13 @@ void PairCollider::collide_primitives(std::uint32_t index, std::span<const Conta
     data_.separating_axes.note(index, pair, last_axis);
     return timer.found_apart();
   }
-  if (waiting.are_admitted && geometry::BoxBatch::takes(shape_a, shape_b, offset)) {
+  // The batch holds no edges.
+  const HeldFeatures& held = entry.input.held;
+  const bool may_wait = waiting.are_admitted && !geometry::is_of_edges(held.first());
+  if (may_wait && geometry::BoxBatch::takes(shape_a, shape_b, offset)) {
     entry.index = index;
     entry.before = before;
-    waiting.batch.add(a, b, offset, entry.input.margin);
+    waiting.batch.add(a, b, offset, entry.input.margin, held);
     if (waiting.batch.is_full()) collide_waiting();
     return;
   }
@@ -139,7 +159,7 @@ int PairCollider::collide_alone(std::uint32_t index, const ManifoldInput& input,
                                                  : data_.found.manifolds[id];
   const std::vector<Mat3>& turned = rotations_of(pair);
   lockstone::collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]},
-                     saturated<Length>(input.offset), input.margin, manifold);
+                     saturated<Length>(input.offset), input.margin, input.held, manifold);
   if (manifold.count == 0) {
     data_.separating_axes.note(index, pair, manifold.normal);
     ManifoldIds::release(scratch_, id);
