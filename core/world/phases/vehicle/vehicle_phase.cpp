@@ -52,8 +52,11 @@ class VehicleTick {
       : world_(world), vehicle_(vehicle), chassis_(chassis_of(world, vehicle.chassis)) {}
 
   void run() {
-    for (std::size_t i = 0; i < count(); ++i)
+    world_.moved.note_look(chassis_.body, chassis_.body);
+    for (std::size_t i = 0; i < count(); ++i) {
       contacts_[i] = find_ground(world_, vehicle_, chassis_, i, vehicle_.wheels[i]);
+      if (contacts_[i].exists) world_.moved.note_look(chassis_.body, contacts_[i].ground.index);
+    }
     load_wheels();
     shift(vehicle_);
     const auto forces = turn_wheels(vehicle_, contacts_, world_.def.tick_rate);
