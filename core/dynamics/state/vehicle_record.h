@@ -87,10 +87,7 @@ struct VehicleRecord {
   friend bool operator==(const VehicleRecord&, const VehicleRecord&) = default;
 
   [[nodiscard]] std::uint32_t key() const { return chassis; }
-  [[nodiscard]] bool is_automatic() const { return (flags & k_vehicle_automatic) != 0; }
-  [[nodiscard]] bool leans() const { return (flags & k_vehicle_leans) != 0; }
-  [[nodiscard]] bool has_tracks() const { return (flags & k_vehicle_has_tracks) != 0; }
-  [[nodiscard]] bool casts_spheres() const { return (flags & k_vehicle_casts_spheres) != 0; }
+  [[nodiscard]] bool has(VehicleFlag flag) const { return (flags & flag) != 0; }
 };
 
 /// The highest place of a wheel's centre in the axes of the chassis; the left wheel of an axle is

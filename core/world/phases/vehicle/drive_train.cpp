@@ -52,15 +52,15 @@ class DriveTrain {
   // One part of a tick; adds the forces.
   void advance(std::span<TyreForce> forces) {
     std::array<Real, k_max_wheels> torques{};
-    vehicle_.has_tracks() ? drive_tracks(torques) : drive(torques);
+    vehicle_.has(k_vehicle_has_tracks) ? drive_tracks(torques) : drive(torques);
     for (std::size_t i = 0; i < count(); ++i) {
       const TyreForce force = pull(i);
       forces[i] = {forces[i].ahead + force.ahead, forces[i].right + force.right};
       speeds_right_[i] = speeds_right_[i] + force.right * (contacts_[i].yield_right * dt_);
       torques[i] = torques[i] - force.ahead * turnings_[i].radius;
-      if (!vehicle_.has_tracks()) turn(vehicle_.wheels[i], turnings_[i], torques[i]);
+      if (!vehicle_.has(k_vehicle_has_tracks)) turn(vehicle_.wheels[i], turnings_[i], torques[i]);
     }
-    if (!vehicle_.has_tracks()) return;
+    if (!vehicle_.has(k_vehicle_has_tracks)) return;
     turn_side(0, torques);
     turn_side(1, torques);
     hold_ratio();
@@ -305,7 +305,7 @@ void shift(VehicleRecord& vehicle) {
     --vehicle.shifting;
     return;
   }
-  const bool chooses = vehicle.is_automatic() && vehicle.wanted_gear > 0;
+  const bool chooses = vehicle.has(k_vehicle_automatic) && vehicle.wanted_gear > 0;
   const std::int32_t gear =
       chooses ? automatic_gear(vehicle) : std::clamp(vehicle.wanted_gear, -1, top_gear(vehicle));
   if (gear == vehicle.gear) return;

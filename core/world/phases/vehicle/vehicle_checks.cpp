@@ -145,13 +145,14 @@ VehicleDef def_of(const VehicleRecord& record) {
   def.tyre = {record.peak_slip, record.peak_angle, record.relaxation, record.rolling_resistance};
   def.engine = {record.torque, record.idle_speed, record.max_speed, record.engine_inertia,
                 record.engine_friction};
-  def.gearbox = {record.ratios,   record.reverse,    record.final_drive,   record.is_automatic(),
-                 record.shift_up, record.shift_down, record.clutch_torque, record.shift_ticks};
+  def.gearbox = {
+      record.ratios,   record.reverse,    record.final_drive,   record.has(k_vehicle_automatic),
+      record.shift_up, record.shift_down, record.clutch_torque, record.shift_ticks};
   def.wheel_inertia = record.wheel_inertia;
-  def.cast = record.casts_spheres() ? WheelCast::sphere : WheelCast::ray;
+  def.cast = record.has(k_vehicle_casts_spheres) ? WheelCast::sphere : WheelCast::ray;
   def.mask = record.mask;
-  if (record.has_tracks()) def.kind = VehicleKind::tracked;
-  if (record.leans()) {
+  if (record.has(k_vehicle_has_tracks)) def.kind = VehicleKind::tracked;
+  if (record.has(k_vehicle_leans)) {
     def.kind = VehicleKind::motorcycle;
     def.max_lean = record.max_lean;
   }

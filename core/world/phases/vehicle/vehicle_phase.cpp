@@ -63,7 +63,7 @@ class VehicleTick {
     const auto forces = turn_wheels(vehicle_, contacts_, world_.def.tick_rate);
     for (std::size_t i = 0; i < count(); ++i)
       if (contacts_[i].exists) apply(i, forces[i]);
-    if (vehicle_.leans()) keep_balance();
+    if (vehicle_.has(k_vehicle_leans)) keep_balance();
   }
 
  private:
@@ -74,7 +74,8 @@ class VehicleTick {
     WheelRecord& wheel = vehicle_.wheels[i];
     if (i % 2 == 0 || vehicle_.axles[i / 2].half_track != Length{}) {
       contacts_[i] = find_ground(world_, vehicle_, chassis_, i, wheel);
-      if (vehicle_.leans() && contacts_[i].exists) contacts_[i].yield_right = yield_right(i);
+      if (vehicle_.has(k_vehicle_leans) && contacts_[i].exists)
+        contacts_[i].yield_right = yield_right(i);
       return;
     }
     contacts_[i] = contacts_[i - 1];

@@ -49,7 +49,7 @@ Touch cast_wheel(const WorldData& world, const VehicleRecord& vehicle, const Cha
   QueryFilter filter;
   filter.mask = vehicle.mask;
   filter.ignore = world.handle_of(chassis.body);
-  if (vehicle.casts_spheres()) {
+  if (vehicle.has(k_vehicle_casts_spheres)) {
     const Real way = travel + radius;
     const ShapeHit hit = first_hit(
         world, {Shape::sphere(axle.radius), {start, {}}, (up * -way).as<Length>()}, filter);
