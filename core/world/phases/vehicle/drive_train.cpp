@@ -47,6 +47,8 @@ class DriveTrain {
       turnings_[i] = turning_of(i);
       speeds_right_[i] = contacts_[i].speed_right;
     }
+    gear_ = ratio();
+    share_work();
   }
 
   // One part of a tick; adds the forces.
@@ -144,31 +146,46 @@ class DriveTrain {
     return Real::of(vehicle_.ratios[static_cast<std::size_t>(vehicle_.gear - 1)]) * last;
   }
 
-  // The torque of the engine goes through the clutch to the wheels.
-  void drive(std::span<Real> torques) {
-    Real share{}, carrier{}, inertia{};
+  // What each wheel gets of the drive's torque, and the inertia of the wheels that get some.
+  void share_work() {
+    Real share{};
     for (std::size_t i = 0; i < count(); ++i) {
       share = share + turnings_[i].drive;
-      carrier = carrier + turnings_[i].drive * spin_of(vehicle_.wheels[i]);
-      if (turnings_[i].drive > Real{}) inertia = inertia + turnings_[i].inertia;
+      if (turnings_[i].drive > Real{}) driven_inertia_ = driven_inertia_ + turnings_[i].inertia;
     }
-    const Real torque =
-        share > Real{} ? turn_engine(carrier / share, inertia, ratio()) : turn_engine({}, {}, {});
+    share_ = share;
     for (std::size_t i = 0; i < count(); ++i)
-      torques[i] = share > Real{} ? torque * (turnings_[i].drive / share) : Real{};
+      shares_[i] = share > Real{} ? turnings_[i].drive / share : Real{};
+    if (!vehicle_.has(k_vehicle_has_tracks)) reduced_ = reduced_inertia(driven_inertia_);
+  }
+
+  // Of the engine and a shaft beyond the gear, by their difference of speed.
+  [[nodiscard]] Real reduced_inertia(Real shaft) const {
+    if (gear_ == Real{}) return {};
+    const Real engine = Real::of(vehicle_.engine_inertia), beyond = shaft / (gear_ * gear_);
+    return engine * beyond / (engine + beyond);
+  }
+
+  // The torque of the engine goes through the clutch to the wheels.
+  void drive(std::span<Real> torques) {
+    Real carrier{};
+    for (std::size_t i = 0; i < count(); ++i)
+      carrier = carrier + turnings_[i].drive * spin_of(vehicle_.wheels[i]);
+    const Real torque =
+        share_ > Real{} ? turn_engine(carrier / share_, reduced_, gear_) : turn_engine({}, {}, {});
+    for (std::size_t i = 0; i < count(); ++i)
+      torques[i] = torque * shares_[i];
     for (std::size_t i = 0; i + 1 < count(); i += 2)
       lock(i, torques);
   }
 
-  // Through the clutch to a shaft of so much inertia that turns at the speed `carrier`. Returns the
-  // torque on the shaft, none in gear 0.
-  [[nodiscard]] Real turn_engine(Real carrier, Real inertia, Real gear) {
+  // Through the clutch to a shaft that turns at the speed `carrier`. Returns the torque on the
+  // shaft, none in gear 0.
+  [[nodiscard]] Real turn_engine(Real carrier, Real reduced, Real gear) {
     const Real engine_torque = torque_of_engine(), engine = Real::of(vehicle_.engine_inertia);
     Real through{};
     if (gear != Real{}) {
       const Real turns = carrier * gear;
-      const Real beyond = inertia / (gear * gear);
-      const Real reduced = engine * beyond / (engine + beyond);
       const Real wanted = (Real{vehicle_.engine_speed.raw} - turns) * reduced / (dt_ + dt_);
       const Real most = Real::of(vehicle_.clutch_torque) * grip_of_clutch(turns);
       through = clamp_real(wanted, -most, most);
@@ -194,7 +211,8 @@ class DriveTrain {
     const Real left = spin_of(vehicle_.wheels[0]), right = spin_of(vehicle_.wheels[1]);
     const Real squares = a * a + b * b;
     const Real inertia = a * a * inertia_of_side(0) + b * b * inertia_of_side(1);
-    const Real torque = turn_engine((a * left + b * right) / squares, inertia, ratio()) / squares;
+    const Real torque =
+        turn_engine((a * left + b * right) / squares, reduced_inertia(inertia), gear_) / squares;
     torques[0] = a * torque;
     torques[1] = b * torque;
   }
@@ -263,8 +281,8 @@ class DriveTrain {
     Real throttle = speed >= most ? Real{} : Real::of(vehicle_.throttle);
     const Real below = (idle - speed) * Real::ratio(8, 1) / idle;
     throttle = std::max(throttle, clamp_real(below, Real{}, k_real_one));
-    const Real drag = Real::of(vehicle_.engine_friction) * (speed / most);
-    return throttle * full_torque(speed / most) - drag * (k_real_one - throttle);
+    const Real part = speed / most, drag = Real::of(vehicle_.engine_friction) * part;
+    return throttle * full_torque(part) - drag * (k_real_one - throttle);
   }
 
   [[nodiscard]] Real full_torque(Real part) const {
@@ -280,6 +298,8 @@ class DriveTrain {
   std::span<const WheelContact> contacts_;
   Real dt_;
   Real inverse_best_u_, inverse_best_w_;  // 1 / deflection where the tyre grips best
+  Real gear_{}, share_{}, driven_inertia_{}, reduced_{};
+  std::array<Real, k_max_wheels> shares_{};
   std::array<Turning, k_max_wheels> turnings_{};
   // Of a motorcycle they follow the forces: it is light to turn about its way ahead.
   std::array<Real, k_max_wheels> speeds_right_{};
