@@ -146,7 +146,7 @@ class DriveTrain {
     return Real::of(vehicle_.ratios[static_cast<std::size_t>(vehicle_.gear - 1)]) * last;
   }
 
-  // What each wheel gets of the drive's torque, and the inertia of the wheels that get some.
+  // The share of each wheel in the torque of the drive, and the inertia of the driven wheels.
   void share_work() {
     Real share{};
     for (std::size_t i = 0; i < count(); ++i) {
