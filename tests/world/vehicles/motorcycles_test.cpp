@@ -132,6 +132,19 @@ TEST(Motorcycles, GainNoEnergyInASlalom) {
   }
 }
 
+// Nothing balances one that gravity pulls up, or not at all.
+TEST(Motorcycles, AreLeftAloneWithoutWeight) {
+  for (const int scale : {-1, 0}) {
+    World world = test::make_road();
+    BodyDef def = frame_def(0.1);
+    def.gravity_scale = Number::from_integer(scale);
+    const BodyHandle body = test::add_vehicle(world, cycle(), def);
+    test::drive(world, body, {.throttle = test::k_full, .steer = Unit::from_ratio(1, 10)});
+    test::step(world, 120);
+    EXPECT_FALSE(world.find_fault());
+  }
+}
+
 TEST(Motorcycles, GoOnFromASnapshot) {
   World world = test::make_road(), other = test::make_road();
   const BodyHandle body = test::add_vehicle(world, cycle(), frame_def());

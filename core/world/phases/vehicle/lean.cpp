@@ -94,6 +94,7 @@ Balance balance_of(const WorldData& world, const VehicleRecord& vehicle, const C
   if (!level.exists || stance.count == 0) return {};
   const Real weight =
       chassis.mass * level.gravity * Real::of(world.bodies[chassis.body].gravity_scale);
+  if (weight <= Real{}) return {};
   // About the way ahead: through the centre of mass, which a sudden torque sees, and on the ground.
   const Real own = k_real_one / yield_to(world, chassis, level.ahead);
   const Real inertia = own + chassis.mass * stance.height * stance.height;
