@@ -235,6 +235,32 @@ TEST_F(CommandsThroughC, AVehicleGivesTheSameState) {
   EXPECT_EQ(lks_vehicle_get(twin_, box, &view), LKS_INVALID_ARGUMENT);
 }
 
+TEST_F(CommandsThroughC, MotorcyclesAndTanksGiveTheSameState) {
+  lks_vehicle_def raw{};
+  const lks_body box = c::id_of(box_);
+  ASSERT_EQ(lks_make_motorcycle(Length(1.5_m).raw, Length(-0.25_m).raw,
+                                Torque::from_integer(60).raw, &raw, sizeof raw),
+            LKS_OK);
+  EXPECT_EQ(raw.kind, static_cast<std::uint32_t>(LKS_VEHICLE_MOTORCYCLE));
+  raw.max_lean = Angle(0.6_rad).raw;
+  VehicleDef cycle = make_motorcycle(1.5_m, -0.25_m, Torque::from_integer(60));
+  cycle.max_lean = 0.6_rad;
+  expect_same(world_->apply(SetVehicle{box_, cycle}), lks_set_vehicle(twin_, box, &raw), "cycle");
+  step(30);
+  lks_vehicle_view view{};
+  view.size = sizeof view;
+  ASSERT_EQ(lks_vehicle_get(twin_, box, &view), LKS_OK);
+  EXPECT_EQ(view.lean, vehicle_of(*world_, box_)->lean.raw);
+  ASSERT_EQ(lks_make_tank(Length(3_m).raw, Length(1_m).raw, Length(-0.25_m).raw,
+                          Torque::from_integer(900).raw, &raw, sizeof raw),
+            LKS_OK);
+  const VehicleDef tank = make_tank(3_m, 1_m, -0.25_m, Torque::from_integer(900));
+  expect_same(world_->apply(SetVehicle{box_, tank}), lks_set_vehicle(twin_, box, &raw), "tank");
+  step(30);
+  raw.kind = 3;
+  EXPECT_EQ(lks_set_vehicle(twin_, box, &raw), LKS_INVALID_ARGUMENT);
+}
+
 TEST_F(CommandsThroughC, GroupsOfMeshesAreSwitchedAlike) {
   const BodyHandle panels = add(MotionType::static_body, {ShapeKind::mesh, {}, panels_}, 20, 0);
   const lks_body raw = c::id_of(panels);

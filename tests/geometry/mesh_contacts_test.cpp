@@ -100,7 +100,8 @@ TriangleContact contact_with(std::uint32_t part, const TriangleVertices& vertice
 
 class CollectContacts final : public geometry::PartVisitor {
  public:
-  CollectContacts(const Pose& pose, std::vector<TriangleContact>& out) : pose_(pose), out_(out) {}
+  CollectContacts(const Pose& pose, std::vector<TriangleContact>& out)
+      : PartVisitor(true), pose_(pose), out_(out) {}
 
   void visit(const Part& part) override {
     const auto& v = part.polytope->vertices;

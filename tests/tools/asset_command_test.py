@@ -102,6 +102,14 @@ class Models(Case):
         mesh = self.build(MODELS / "cube.obj")
         self.assertEqual((mesh["kind"], mesh["vertices"], mesh["triangles"]), ("mesh", 8, 12))
 
+    def test_vertices_are_a_path_in_their_order(self):
+        square = self.write("square.obj", "v 0 0 0\nv 4 0 0\nv 4 0 4\nv 0 0 4\nl 1 2 3 4 1\n")
+        path = self.build(square, "--as", "path", "--closed")
+        self.assertEqual((path["kind"], path["points"], path["closed"]), ("path", 4, True))
+        self.assertTrue(16 < path["length"] < 4 * 3.1416 * 2 ** 0.5)  # between the square and its circle
+        self.assertFalse(self.build(square, "--as", "path")["closed"])
+        self.assertIn("close.obj:1: ", self.refuse(self.write("close.obj", "v 0 0 0\nv 0.01 0 0\n"), "--as", "path"))
+
     def test_the_same_file_gives_the_same_bytes(self):
         for kind in ("hull", "mesh"):
             names = ("one.lka", "two.lka")

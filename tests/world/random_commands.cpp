@@ -247,6 +247,10 @@ void CommandDice::fill(SetVehicle& c) {
   c.chassis = body();
   if (chance(4)) return;
   c.def = make_car(2.4_m, 0.7_m, {}, Torque::from_integer(300));
+  if (chance(3)) c.def = make_motorcycle(1.5_m, {}, Torque::from_integer(60));
+  if (chance(3)) c.def = make_tank(3_m, 1_m, {}, Torque::from_integer(900));
+  if (goes_wild()) c.def->max_lean = number(Angle(1.2_rad));
+  if (goes_wild()) c.def->kind = static_cast<VehicleKind>(random_.below(5));
   if (goes_wild()) c.def->axle_count = static_cast<std::uint32_t>(random_.below(5));
   if (goes_wild()) c.def->axles[0].radius = number(Length(1_m));
   if (goes_wild()) c.def->engine.max_speed = number(AngularVelocity::from_integer(9000));

@@ -16,6 +16,7 @@ namespace lockstone::arena {
 struct Level {
   BodyHandle ferry{};  ///< null in a variant without machines
   BodyHandle bar{};
+  BodyHandle buggy{};  ///< its chassis
   BodyHandle hill{};
   std::array<BodyHandle, 2> goals{};
   std::vector<BodyHandle> loose;  ///< never destroyed, only moved

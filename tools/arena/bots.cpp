@@ -16,7 +16,7 @@ constexpr Length k_near = 2_m;
 constexpr Length k_throw_range = 5.5_m;
 constexpr Position k_safe = 17_m;  // further out, a bot turns back
 
-enum class Mood : std::uint8_t { haul, hunt, climb, wander };
+enum class Mood : std::uint8_t { haul, hunt, climb, wander, drive };
 
 /// A bot's view of the game in one tick.
 struct View {
@@ -34,7 +34,7 @@ struct View {
 
 Mood mood_of(const View& view) {
   constexpr Mood k_moods[] = {Mood::haul, Mood::haul,  Mood::haul,   Mood::hunt,
-                              Mood::hunt, Mood::climb, Mood::wander, Mood::haul};
+                              Mood::hunt, Mood::climb, Mood::wander, Mood::drive};
   return k_moods[view.whim % 8];
 }
 
@@ -138,6 +138,26 @@ void climb(Input& input, const View& view) {
   tap(input, view, k_push, 30);
 }
 
+// Round the field, an eighth of a turn ahead of where it is.
+void drive_round(Input& input, const View& view) {
+  const int here = yaw_of(view.place.x.raw, view.place.z.raw);
+  const auto next = static_cast<std::int16_t>(static_cast<std::uint16_t>(here + 8192));
+  const Vec3<Length> target = along(direction_of(next), Length(13_m));
+  head(input, view.way_to(moved({}, target)));
+}
+
+// To the buggy, if nobody sits in it.
+void drive(Input& input, const View& view) {
+  const std::uint32_t driver = view.arena.state.game.driver;
+  if (driver == view.slot + 1) return drive_round(input, view);
+  const BodyHandle buggy = view.arena.level.buggy;
+  if (driver != 0 || !view.arena.world.exists(buggy)) return wander(input, view);
+  const Vec3<Length> way = view.way_to(view.arena.world.position(buggy));
+  head(input, way);
+  if (within(way, k_near)) tap(input, view, k_ride, 8);
+  tap(input, view, k_jump, 50);
+}
+
 // Two sides are open; a bot that does not carry anything keeps away from them.
 void keep_inside(Input& input, const View& view) {
   const bool outside = abs(view.place.x) > k_safe || abs(view.place.z) > k_safe;
@@ -155,7 +175,9 @@ Input bot_input(const Arena& arena, std::uint64_t seed, std::size_t slot) {
   const std::uint64_t epoch = (tick + slot * 53) / k_epoch_ticks;
   const View view{arena, slot, tick, mix(seed ^ mix(slot * 0x10001 + epoch * 0x1000003)),
                   arena.world.position(body)};
-  switch (mood_of(view)) {
+  const Mood mood = mood_of(view);
+  if (mood != Mood::drive && arena.state.game.driver == slot + 1) tap(input, view, k_ride, 8);
+  switch (mood) {
     case Mood::haul:
       haul(input, view);
       break;
@@ -167,6 +189,9 @@ Input bot_input(const Arena& arena, std::uint64_t seed, std::size_t slot) {
       break;
     case Mood::wander:
       wander(input, view);
+      break;
+    case Mood::drive:
+      drive(input, view);
       break;
   }
   keep_inside(input, view);

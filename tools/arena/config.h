@@ -12,7 +12,7 @@
 namespace lockstone::arena {
 
 /// Changes whenever the same inputs may give another game, for reasons other than the core's.
-inline constexpr std::uint32_t k_rules_version = 1;
+inline constexpr std::uint32_t k_rules_version = 2;
 
 inline constexpr std::uint32_t k_config_magic = 0x52414b4c;  // "LKAR"
 inline constexpr std::uint16_t k_config_version = 1;
@@ -22,7 +22,7 @@ inline constexpr std::uint16_t k_max_loose_bodies = 600;
 
 /// Which level is built.
 enum class Variant : std::uint8_t {
-  yard = 0,   ///< hill with two ramps, a sweeping bar, a ferry, two goals
+  yard = 0,   ///< hill with two ramps, a sweeping bar, a ferry, a buggy, two goals
   empty = 1,  ///< the same without the hill and the machines
 };
 

@@ -16,6 +16,7 @@ enum Button : std::uint8_t {
   k_push = 2,
   k_grab = 4,   ///< held: grab the object in front and carry it; let go: throw it
   k_shoot = 8,  ///< throw a snowball
+  k_ride = 16,  ///< get into the buggy, or out of it
 };
 
 struct Input {

@@ -83,6 +83,11 @@ void add_machines(World& world, Level& level) {
   level.ferry = add(world, ferry);
 }
 
+void add_buggy(World& world, Level& level) {
+  level.buggy = add(world, buggy_def());
+  order(world, SetVehicle{level.buggy, buggy_wheels()});
+}
+
 Shape loose_shape(Kind kind, Random& random) {
   const Length size = millimetres_long(random.between(280, 480));
   const Length height = millimetres_long(random.between(280, 420));
@@ -123,7 +128,8 @@ bool is_reserved(const Vec3<Position>& position) {
   const bool bar = x < 5.5_m && abs(position.z + 13_m) < 5.5_m;
   const bool ferry = abs(position.x + 11_m) < 2.6_m && z < 7_m;
   const bool goal = x > 15.8_m && z < 5_m;
-  return hill || bar || ferry || goal;
+  const bool garage = abs(position.x - 13_m) < 3_m && abs(position.z - 15_m) < 2.5_m;
+  return hill || bar || ferry || goal || garage;
 }
 
 void add_loose_bodies(World& world, Level& level, const ArenaConfig& config, Random& random) {
@@ -163,6 +169,33 @@ WorldDef world_def(const ArenaConfig& config) {
                       config.players * std::uint32_t{k_shots_per_player};
   def.pair_capacity = def.body_capacity * 16;
   def.contact_capacity = def.body_capacity * 8;
+  def.vehicle_capacity = config.variant == Variant::yard ? 1 : 0;
+  return def;
+}
+
+BodyDef buggy_def() {
+  BodyDef def;
+  def.shape = Shape::box(1.1_m, 0.22_m, 0.5_m);
+  def.position = {13_m, 0.75_m, 15_m};
+  def.orientation = from_axis_angle({{}, Unit::from_integer(1), {}}, 3.1415926_rad);
+  def.mass.mass = 350_kg;
+  def.material.friction = 0.3_r;
+  def.events.hit_speed = 3_mps;
+  def.filter.category = k_buggy_bit;
+  def.user_data = Tag{Kind::buggy}.pack();
+  return def;
+}
+
+VehicleDef buggy_wheels() {
+  VehicleDef def = make_car(1.5_m, 0.6_m, 0.05_m, Torque::from_integer(120));
+  for (Axle& axle : std::span(def.axles).first(2)) {
+    axle.travel = 0.3_m;
+    axle.frequency = Number::from_ratio(18, 10);
+    axle.drive = Unit::from_integer(1);
+    axle.brake = Torque::from_integer(500);
+  }
+  def.cast = WheelCast::sphere;
+  def.mask = k_scenery_bit;
   return def;
 }
 
@@ -187,6 +220,7 @@ Arena build_arena(const ArenaConfig& config, BroadPhaseKind broad_phase) {
   if (config.variant == Variant::yard) {
     add_hill(arena.world);
     add_machines(arena.world, arena.level);
+    add_buggy(arena.world, arena.level);
   }
   add_loose_bodies(arena.world, arena.level, config, random);
   add_players(arena);

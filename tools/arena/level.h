@@ -1,6 +1,8 @@
 // Builds the arena: ground, walls, machines, zones, loose bodies and players.
 #pragma once
 
+#include <lockstone/vehicle.h>
+
 #include "tools/arena/arena.h"
 
 namespace lockstone::arena {
@@ -17,6 +19,10 @@ namespace lockstone::arena {
 
 /// The playing field spans ± this in x and z.
 inline constexpr std::int32_t k_field_half_mm = 20'000;
+
+/// The buggy where it starts and returns to, standing.
+[[nodiscard]] BodyDef buggy_def();
+[[nodiscard]] VehicleDef buggy_wheels();
 
 /// The ferry's way along z: it turns back every this many ticks.
 inline constexpr std::uint64_t k_ferry_leg_ticks = 240;

@@ -100,6 +100,7 @@ void touch(Arena& arena, BodyHandle by, BodyHandle body) {
 void fall(Arena& arena, std::size_t slot) {
   PlayerRecord& player = arena.state.players[slot];
   release(arena, slot);
+  leave_buggy(arena, slot);
   player.respawn_ticks = k_respawn_ticks;
   ++arena.state.game.falls;
   add_score(player, -1);
@@ -169,6 +170,7 @@ StepReport advance(Arena& arena, std::span<const PlayerInput> inputs) {
   drive_machines(arena);
   const StepReport report = arena.history.step();
   score_events(arena);
+  look_after_buggy(arena);
   retire(arena);
   return report;
 }

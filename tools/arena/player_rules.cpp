@@ -39,7 +39,8 @@ struct Footing {
 };
 
 Footing find_footing(const World& world, BodyHandle body) {
-  const QueryFilter filter{.mask = k_scenery_bit | k_player_bit | k_loose_bit, .ignore = body};
+  const QueryFilter filter{.mask = k_scenery_bit | k_player_bit | k_loose_bit | k_buggy_bit,
+                           .ignore = body};
   const RayHit hit = world.cast_ray(world.position(body), {{}, -k_foot_depth, {}}, filter);
   if (hit.body.is_null()) return {};
   return {true, solver_velocity(world.velocity(hit.body))};
@@ -69,26 +70,12 @@ void jump(Arena& arena, PlayerRecord& player) {
   player.jump_wait = k_jump_wait_ticks;
 }
 
-// The player that touches a loose body last gets the points for it.
-void claim(Arena& arena, BodyHandle body, std::size_t slot) {
-  Tag tag = tag_of(arena.world, body);
-  const auto owner = static_cast<std::uint8_t>(slot + 1);
-  if (tag.kind == Kind::player && tag.number < arena.config.players) {
-    PlayerRecord& victim = arena.state.players[tag.number];
-    victim.rival = owner;
-    victim.rival_ticks = k_rival_ticks;
-  } else if (tag.is_loose()) {
-    tag.owner = owner;
-    order(arena.world, SetUserData{body, tag.pack()});
-  }
-}
-
 void push(Arena& arena, std::size_t slot, const Vec3<Unit>& aim) {
   World& world = arena.world;
   PlayerRecord& player = arena.state.players[slot];
   std::array<BodyHandle, 32> found{};
   const Vec3<Position> center = moved(world.position(player.body), along(aim, k_reach));
-  const QueryFilter filter{.mask = k_player_bit | k_loose_bit, .ignore = player.body};
+  const QueryFilter filter{.mask = k_player_bit | k_loose_bit | k_buggy_bit, .ignore = player.body};
   const std::size_t count = world.overlap_sphere(center, k_push_radius, found, filter);
   Vec3<SolverVelocity> change = along(aim, k_push_speed);
   change.y = k_push_lift;
@@ -136,10 +123,10 @@ void count_down(PlayerRecord& player) {
   if (player.rival_ticks > 0 && --player.rival_ticks == 0) player.rival = 0;
 }
 
-void act(Arena& arena, std::size_t slot, const Input& input, const Footing& footing) {
+void act(Arena& arena, std::size_t slot, const Input& input, std::uint8_t pressed,
+         const Footing& footing) {
   PlayerRecord& player = arena.state.players[slot];
   const Vec3<Unit> aim = direction_of(input.yaw);
-  const auto pressed = static_cast<std::uint8_t>(input.buttons & ~player.buttons);
   if ((input.buttons & k_jump) != 0 && footing.grounded && player.jump_wait == 0) {
     jump(arena, player);
   }
@@ -149,6 +136,19 @@ void act(Arena& arena, std::size_t slot, const Input& input, const Footing& foot
 
 }  // namespace
 
+void claim(Arena& arena, BodyHandle body, std::size_t slot) {
+  Tag tag = tag_of(arena.world, body);
+  const auto owner = static_cast<std::uint8_t>(slot + 1);
+  if (tag.kind == Kind::player && tag.number < arena.config.players) {
+    PlayerRecord& victim = arena.state.players[tag.number];
+    victim.rival = owner;
+    victim.rival_ticks = k_rival_ticks;
+  } else if (tag.is_loose()) {
+    tag.owner = owner;
+    order(arena.world, SetUserData{body, tag.pack()});
+  }
+}
+
 void control_player(Arena& arena, std::size_t slot, const PlayerInput& from) {
   PlayerRecord& player = arena.state.players[slot];
   count_down(player);
@@ -157,9 +157,15 @@ void control_player(Arena& arena, std::size_t slot, const PlayerInput& from) {
   // Nobody sits in an absent slot: the capsule brakes and stands.
   const Input input = from.origin == InputOrigin::absent ? Input{} : Input::decode(from.bytes);
   if (from.origin != InputOrigin::absent) player.yaw = input.yaw;
+  if (from.origin == InputOrigin::absent) leave_buggy(arena, slot);
+  const auto pressed = static_cast<std::uint8_t>(input.buttons & ~player.buttons);
+  if (ride(arena, slot, input, pressed)) {
+    player.buttons = input.buttons;
+    return;
+  }
   const Footing footing = find_footing(arena.world, player.body);
   walk(arena, player.body, input, footing);
-  act(arena, slot, input, footing);
+  act(arena, slot, input, pressed, footing);
   carry(arena, slot, (input.buttons & k_grab) != 0);
   player.buttons = input.buttons;
 }

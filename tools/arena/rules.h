@@ -7,6 +7,7 @@
 #include <lockstone/simulation.h>
 
 #include "tools/arena/arena.h"
+#include "tools/arena/input.h"
 
 namespace lockstone::arena {
 
@@ -26,6 +27,19 @@ void release(Arena& arena, std::size_t slot);
 
 /// Ends every hold on a body.
 void release_from_all(Arena& arena, BodyHandle body);
+
+/// The player that touches a body last: a loose one is its own, a player its victim.
+void claim(Arena& arena, BodyHandle body, std::size_t slot);
+
+/// Gets into the buggy or out of it where the player asks for it, and drives it. Returns whether
+/// the player sits in it.
+bool ride(Arena& arena, std::size_t slot, const Input& input, std::uint8_t pressed);
+
+/// Leaves the buggy, if the player sits in it.
+void leave_buggy(Arena& arena, std::size_t slot);
+
+/// After the step: the buggy's hits, and its return when it lies on its back or fell off.
+void look_after_buggy(Arena& arena);
 
 /// Scores the step's events: touches, goals, the hill.
 void score_events(Arena& arena);

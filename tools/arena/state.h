@@ -21,7 +21,9 @@ inline constexpr std::size_t k_max_shots = k_max_players * k_shots_per_player;
 #define ARENA_GAME_FIELDS(X) \
   X(std::uint64_t, random)    /* of the rules: where things reappear */ \
   X(std::uint32_t, goals)     /* bodies brought into a goal */ \
-  X(std::uint32_t, falls)     /* players who fell off */
+  X(std::uint32_t, falls)     /* players who fell off */ \
+  X(std::uint32_t, driver)    /* slot + 1 of the player in the buggy, or 0 */ \
+  X(std::uint32_t, lying_ticks)  /* in which the buggy lay on its side or back */
 
 #define ARENA_PLAYER_FIELDS(X) \
   X(BodyHandle, body)              /* the capsule */ \

@@ -93,6 +93,7 @@ class Lister {
 
 // Values that the rules index with; all others are safe as they come.
 bool in_range(const GameState& state, std::size_t players) {
+  if (state.game.driver > players) return false;
   for (const PlayerRecord& player : state.players) {
     if (player.rival > players) return false;
     if (player.score > k_max_score || player.score < -k_max_score) return false;

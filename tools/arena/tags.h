@@ -19,6 +19,7 @@ enum class Kind : std::uint8_t {
   hill = 7,
   ferry = 8,
   bar = 9,
+  buggy = 10,
 };
 
 /// Collision categories.
@@ -28,6 +29,7 @@ enum Category : std::uint32_t {
   k_loose_bit = 4,
   k_shot_bit = 8,
   k_zone_bit = 16,
+  k_buggy_bit = 32,
 };
 
 struct Tag {

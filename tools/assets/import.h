@@ -16,7 +16,8 @@
 namespace lockstone::assets {
 
 struct ObjImport {
-  ShapeKind kind = ShapeKind::mesh;  ///< hull, mesh or compound
+  ShapeKind kind = ShapeKind::mesh;  ///< hull, mesh, compound or path
+  bool closed = false;               ///< of a path
   ObjOptions reading;
   int max_vertices = 64;    ///< of a hull, 4 … 128
   Length weld_tolerance{};  ///< of a mesh
@@ -38,7 +39,8 @@ struct Imported {
   std::vector<std::string> notes;  ///< dropped parts of the file
 };
 
-/// A hull of all vertices; a mesh of all faces; or a compound with one hull an object (a group
+/// A hull of all vertices; a path through them in the order of the file, up along y; a mesh of all
+/// faces; or a compound with one hull an object (a group
 /// where the file names no objects), of the vertices of its faces.
 [[nodiscard]] ImportOutcome import_obj(std::string_view text, const ObjImport& options,
                                        Imported& out);

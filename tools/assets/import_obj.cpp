@@ -5,6 +5,7 @@
 
 #include <lockstone/compound.h>
 #include <lockstone/hull.h>
+#include <lockstone/path.h>
 
 #include "tools/assets/import.h"
 
@@ -141,11 +142,25 @@ ImportOutcome build_compound(const ObjModel& model, const ObjImport& options,
   return std::nullopt;
 }
 
+ImportOutcome build_path(const ObjModel& model, const ObjImport& options, Imported& out) {
+  std::vector<PathPoint> points;
+  for (const Vec3<Length>& vertex : model.vertices)
+    points.push_back({vertex});
+  const PathResult built = Path::build(points, options.closed);
+  const std::size_t lines = model.vertex_lines.size();
+  if (!built.ok())
+    return fault_at(built.point < lines ? model.vertex_lines[built.point] : 0,
+                    to_string(built.fault));
+  out.asset = built.path;
+  return std::nullopt;
+}
+
 }  // namespace
 
 ImportOutcome import_obj(std::string_view text, const ObjImport& options, Imported& out) {
   ObjModel model;
   if (ImportOutcome fault = read_obj(text, options.reading, model)) return fault;
+  if (options.kind == ShapeKind::path) return build_path(model, options, out);
   if (options.kind == ShapeKind::hull) return build_hull(model, options, out);
   std::vector<std::uint8_t> surface_of;
   if (ImportOutcome fault = surfaces_of_materials(model, options, surface_of)) return fault;

@@ -70,7 +70,19 @@ void drive_changes(World& world, std::uint64_t seed) {
   (void)world.apply(SetFluid{random.below(2), fluid});
 }
 
-// Cars of any kind, on bodies of any kind, drawn apart.
+// Of a car: motorcycles of one wheel an axle, and tracks, drawn apart.
+void draw_kind(VehicleDef& def, std::uint64_t seed, std::uint64_t tick) {
+  Random random(mix(~seed ^ mix(tick + 15)));
+  def.kind = static_cast<VehicleKind>(random.below(3));
+  def.max_lean = Angle::from_ratio(random.between(0, 12), 10);
+  const bool has_tracks = def.kind == VehicleKind::tracked;
+  for (Axle& axle : def.axles) {
+    if (has_tracks) axle.radius = def.axles[0].radius;
+    if (def.kind == VehicleKind::motorcycle && !chance(random, 4)) axle.half_track = {};
+  }
+}
+
+// Vehicles of any kind, on bodies of any kind, drawn apart.
 void drive_vehicles(World& world, std::uint64_t seed) {
   Random random(mix(~seed ^ mix(world.tick() + 9)));
   if (!chance(random, 12)) return;
@@ -98,6 +110,7 @@ void drive_vehicles(World& world, std::uint64_t seed) {
   command.def->axle_count = 1 + random.below(3);
   command.def->gearbox.automatic = chance(random, 2);
   command.def->cast = static_cast<WheelCast>(random.below(2));
+  draw_kind(*command.def, seed, world.tick());
   (void)world.apply(command);
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <lockstone/compound.h>
 #include <lockstone/literals.h>
+#include <lockstone/vehicle.h>
 
 #include "core/geometry/convex/parts.h"
 #include "tools/render/convex_facets.h"
@@ -110,11 +112,35 @@ Place place_of(const BodyView& view) {
   return {to_vec(view.position), {to_vec(axes.x), to_vec(axes.y), to_vec(axes.z)}};
 }
 
+// Of a vehicle, if the body is its chassis: they throw no shadows, and do not count for the
+// framing.
+void add_wheels(const World& world, BodyHandle body, const Item& blank, const Place& place,
+                std::vector<Item>& items) {
+  const std::optional<VehicleView> vehicle = vehicle_of(world, body);
+  if (!vehicle) return;
+  Item wheel = blank;
+  wheel.moves = false;
+  wheel.label.clear();
+  wheel.solid.color = {64, 66, 72};
+  for (std::size_t i = 0; i < std::size_t{2} * vehicle->def.axle_count; ++i) {
+    const Axle& axle = vehicle->def.axles[i / 2];
+    if (i % 2 != 0 && axle.half_track == Length{}) continue;
+    const double sine = testing::to_double(vehicle->wheels[i].steer_sin);
+    const double cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
+    const Vec ahead = place.turned({cosine, 0, sine}), across = place.turned({-sine, 0, cosine});
+    const Place at{to_vec(vehicle->wheels[i].centre), {ahead, across, place.axes[1] * -1}};
+    Pieces(items, wheel, at)
+        .add(Shape::cylinder(axle.radius / 4, axle.radius), nullptr, at, nullptr);
+  }
+}
+
 void add_body(const World& world, BodyHandle body, const Style& style, std::vector<Item>& items) {
   const BodyView view = world.body(body);
   const Look look = style(body, view);
   if (!look.visible || view.shape.kind == ShapeKind::half_space) return;
-  Pieces pieces(items, blank_item(body, view, look), place_of(view));
+  const Item blank = blank_item(body, view, look);
+  add_wheels(world, body, blank, place_of(view), items);
+  Pieces pieces(items, blank, place_of(view));
   const Asset* asset = asset_of(world, body);
   const geometry::Polytope* polytope = asset == nullptr ? nullptr : asset->polytope();
   if (asset == nullptr || polytope != nullptr) {

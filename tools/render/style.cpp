@@ -44,6 +44,8 @@ Color kind_color(arena::Kind kind) {
       return {120, 220, 140};
     case arena::Kind::ferry:
       return {150, 110, 180};
+    case arena::Kind::buggy:
+      return {230, 150, 40};
     case arena::Kind::bar:
       return {200, 70, 60};
     default:

@@ -69,6 +69,7 @@ extern const Scene k_explosion;                                          // blas
 extern const Scene k_one_way;                                            // one_way.cpp
 extern const Scene k_terrain_edit;                                       // terrain_edit.cpp
 extern const Scene k_race;                                               // race.cpp
+extern const Scene k_motorcycle, k_tank;                                 // riders.cpp
 extern const Scene k_ragdoll_drive;                                      // ragdolls.cpp
 extern const Scene k_trapdoors;                                          // trapdoors.cpp
 extern const Scene k_coaster, k_ratchets;                                // rails.cpp

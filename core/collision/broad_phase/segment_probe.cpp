@@ -1,5 +1,7 @@
 #include "core/collision/broad_phase/segment_probe.h"
 
+#include <algorithm>
+
 #include <lockstone/assert.h>
 
 #include "core/geometry/numeric/q50.h"
@@ -50,6 +52,7 @@ void SegmentProbe::set(const Vec3<Length>& translation) {
     LKS_ASSERT(swept_.lower[i] <= swept_.upper[i]);
     LKS_ASSERT(std::abs(way_[i]) <= std::int64_t{1} << 20);  // which `meets` relies on
   }
+  is_axial_ = std::ranges::count(way_, 0) >= 2;
 }
 
 // Separating axes of a segment and a box: the box's axes, then their cross products with the
@@ -57,6 +60,7 @@ void SegmentProbe::set(const Vec3<Length>& translation) {
 // after the first test ≤ 2^33: products fit.
 bool SegmentProbe::meets(const Bounds& bounds) const {
   if (!overlap(swept_, bounds)) return false;
+  if (is_axial_) return true;
   std::int64_t offset[3], extent[3];
   for (int i = 0; i < 3; ++i) {
     const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;

@@ -34,6 +34,7 @@ class SegmentProbe {
   std::int64_t middle_[3] = {};
   std::int64_t way_[3] = {};
   std::int64_t half_[3] = {};
+  bool is_axial_ = false;  // the way is along one axis, or none: its bounds are all of it
 };
 
 /// The point a fraction of the way along.

@@ -14,7 +14,9 @@ namespace lockstone {
 enum VehicleFlag : std::uint32_t {
   k_vehicle_automatic = 1,
   k_vehicle_casts_spheres = 2,
-  k_all_vehicle_flags = k_vehicle_automatic | k_vehicle_casts_spheres,
+  k_vehicle_leans = 4,       // a motorcycle
+  k_vehicle_has_tracks = 8,  // not both
+  k_all_vehicle_flags = 15,
 };
 
 struct AxleRecord {
@@ -76,7 +78,7 @@ struct VehicleRecord {
   Unit steer{};
   Unit clutch{};
   std::int32_t wanted_gear = 0;
-  std::uint32_t reserved = 0;  // keeps the record free of padding; always 0
+  Angle max_lean{};  // 0 but of motorcycles
   std::array<WheelRecord, 2 * k_max_axles> wheels{};
   AngularVelocity engine_speed{};
   std::int32_t gear = 0;
@@ -85,8 +87,7 @@ struct VehicleRecord {
   friend bool operator==(const VehicleRecord&, const VehicleRecord&) = default;
 
   [[nodiscard]] std::uint32_t key() const { return chassis; }
-  [[nodiscard]] bool is_automatic() const { return (flags & k_vehicle_automatic) != 0; }
-  [[nodiscard]] bool casts_spheres() const { return (flags & k_vehicle_casts_spheres) != 0; }
+  [[nodiscard]] bool has(VehicleFlag flag) const { return (flags & flag) != 0; }
 };
 
 /// The highest place of a wheel's centre in the axes of the chassis; the left wheel of an axle is
@@ -137,7 +138,7 @@ constexpr void visit_wheel(const char* name, WheelRecord& wheel, F&& f) {
 #define LKS_VEHICLE_FIELDS_2(X) \
   X(reverse) X(final_drive) X(shift_up) X(shift_down) X(clutch_torque) X(wheel_inertia) \
   X(peak_slip) X(peak_angle) X(relaxation) X(rolling_resistance) X(shift_ticks) X(flags) X(mask) \
-  X(throttle) X(brake) X(handbrake) X(steer) X(clutch) X(wanted_gear) X(reserved)
+  X(throttle) X(brake) X(handbrake) X(steer) X(clutch) X(wanted_gear) X(max_lean)
 // clang-format on
 
 template <class F>

@@ -84,8 +84,9 @@ class RegionWalk {
       const TriangleVertices triangle = triangle_of(field_, cell, half);
       if (!overlap(bounds_of(triangle), region_)) continue;
       const std::uint32_t index = 2 * data_.cell_number(cell) + static_cast<std::uint32_t>(half);
-      visitor_.visit(
-          part_.set(index, triangle, active_edges_of(field_, cell, half), field_.surface(cell)));
+      const std::uint8_t edges =
+          visitor_.wants_edges() ? active_edges_of(field_, cell, half) : std::uint8_t{0};
+      visitor_.visit(part_.set(index, triangle, edges, field_.surface(cell)));
     }
   }
 
@@ -103,8 +104,28 @@ class NearestWalk {
   NearestWalk(const Field& field, const Window& window, std::int64_t limit, Visitor& visitor)
       : field_(field), data_(field.grid()), window_(window), visitor_(visitor), limit_(limit) {}
 
-  void run() {
-    Block top{data_.pyramid.top_level(), {0, 0}};
+  void run() { run_from({data_.pyramid.top_level(), {0, 0}}); }
+
+  /// The same, of a window that meets cells of these ranges alone: from the least block with all of
+  /// them.
+  void run(const CellRange& across, const CellRange& along) {
+    if (across.first > across.last || along.first > along.last) return;
+    int level = 0;
+    while (across.first >> level != across.last >> level ||
+           along.first >> level != along.last >> level)
+      ++level;
+    LKS_ASSERT(level <= data_.pyramid.top_level());
+    run_from({level, {across.first >> level, along.first >> level}});
+  }
+
+ private:
+  struct Block {
+    int level = 0;
+    GridPoint place;
+    std::int64_t at = 0;
+  };
+
+  void run_from(Block top) {
     if (meets(top)) stack_[size_++] = top;
     while (size_ > 0) {
       const Block block = stack_[--size_];
@@ -117,13 +138,8 @@ class NearestWalk {
     }
   }
 
- private:
-  struct Block {
-    int level = 0;
-    GridPoint place;
-    std::int64_t at = 0;
-  };
-
+  // Only contacts ask for them, and they visit regions.
+  static constexpr std::uint8_t k_no_edges = 0;
   // A block leaves at most three of its children behind, on at most 12 levels.
   static constexpr std::size_t k_stack = 48;
 
@@ -171,8 +187,8 @@ class NearestWalk {
       std::int64_t at = 0;
       if (!window_.meets(bounds_of(triangle), limit_, at)) continue;
       const std::uint32_t index = 2 * data_.cell_number(cell) + static_cast<std::uint32_t>(half);
-      limit_ = window_.limit_of(visitor_.visit(
-          part_.set(index, triangle, active_edges_of(field_, cell, half), field_.surface(cell))));
+      limit_ = window_.limit_of(
+          visitor_.visit(part_.set(index, triangle, k_no_edges, field_.surface(cell))));
     }
   }
 
@@ -197,7 +213,20 @@ void visit_cells_on_way(const Field& field, const Vec3<Length>& origin,
                         const Vec3<Length>& translation, const Vec3<Length>& reach,
                         WayPartVisitor& visitor) {
   const RayWindow window(origin, translation, reach);
-  NearestWalk(field, window, window.limit_of(Unit::from_integer(1)), visitor).run();
+  const HeightFieldData& grid = field.grid();
+  const auto cells_on_way = [&](int axis, Length first, Length cell, std::int32_t count) {
+    constexpr std::int64_t k_slack = 4;  // more than that of the window
+    const std::int64_t from = origin[axis].raw, to = from + translation[axis].raw;
+    const std::int64_t wide = reach[axis].raw + k_slack;
+    const auto bound = [](std::int64_t x) {
+      return Length::from_raw(raw::saturate<std::int32_t>(x));
+    };
+    return cells_between(bound(std::min(from, to) - wide), bound(std::max(from, to) + wide), first,
+                         cell, count);
+  };
+  NearestWalk(field, window, window.limit_of(Unit::from_integer(1)), visitor)
+      .run(cells_on_way(0, grid.origin_x, grid.cell_x, grid.cell_columns()),
+           cells_on_way(2, grid.origin_z, grid.cell_z, grid.cell_rows()));
 }
 
 template <class Field>

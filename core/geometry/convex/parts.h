@@ -45,7 +45,7 @@ struct LocalBounds {
 /// continues it flat or concave: there only the faces push. Bit i: edge from vertex i to i + 1.
 struct TriangleTopology {
   bool is_triangle = false;
-  std::uint8_t active_edges = 0;     ///< bits 0 … 2
+  std::uint8_t active_edges = 0;     ///< bits 0 … 2; of height fields if `wants_edges`
   std::uint8_t active_vertices = 0;  ///< bits 0 … 2: vertices with at least one active edge
 };
 
@@ -64,8 +64,15 @@ class PartVisitor {
  public:
   virtual void visit(const Part& part) = 0;
 
+  /// Whether it asks for active edges, which height fields compute for each visit.
+  [[nodiscard]] bool wants_edges() const { return wants_edges_; }
+
  protected:
+  explicit PartVisitor(bool wants_edges = false) : wants_edges_(wants_edges) {}
   ~PartVisitor() = default;
+
+ private:
+  bool wants_edges_;
 };
 
 class WayPartVisitor {

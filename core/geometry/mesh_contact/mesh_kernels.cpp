@@ -8,7 +8,8 @@ namespace {
 
 class Collect final : public PartVisitor {
  public:
-  Collect(const MeshContactFrame& frame, TriangleContacts& out) : frame_(frame), out_(out) {}
+  Collect(const MeshContactFrame& frame, TriangleContacts& out)
+      : PartVisitor(true), frame_(frame), out_(out) {}
 
   void visit(const Part& part) override {
     const PosedShape triangle{part.shape, frame_.rotation, part.polytope};

@@ -1,6 +1,6 @@
 // Vehicles: a dynamic body, the chassis, on sprung wheels that are rays or spheres cast to the
-// ground, with tyres, an engine and a gearbox. They are part of the state, set and driven by
-// commands.
+// ground, with tyres, an engine and a gearbox: cars, motorcycles and tracked ones. They are part of
+// the state, set and driven by commands.
 #pragma once
 
 #include <array>
@@ -85,6 +85,18 @@ enum class WheelCast : std::uint8_t {
 
 [[nodiscard]] std::string_view to_string(WheelCast cast);
 
+enum class VehicleKind : std::uint8_t {
+  car = 0,
+  motorcycle = 1,  ///< leans into its turns; axles with a half track of 0 have one wheel
+  tracked = 2,     ///< the wheels of a side turn together, and their speeds steer
+};
+
+[[nodiscard]] std::string_view to_string(VehicleKind kind);
+
+/// The wheels of a tracked vehicle have one radius. Both sides are driven: ahead alike; with the
+/// steering halfway to a side its track stands, and at the end it goes back as fast as the other
+/// one ahead. `Axle::differential_lock` of the first axle is the most with which the steering gear
+/// holds them to that; `drive` of its axles counts for nothing.
 struct VehicleDef {
   std::array<Axle, k_max_axles> axles{};  ///< by x, in any order
   std::uint32_t axle_count = 0;           ///< 1 … k_max_axles
@@ -94,6 +106,8 @@ struct VehicleDef {
   MomentOfInertia wheel_inertia = MomentOfInertia::from_ratio(12, 10);  ///< 0.01 … 1000 kg·m²
   WheelCast cast{};
   std::uint32_t mask = 0xffffffff;  ///< categories of the bodies that carry it
+  VehicleKind kind{};
+  Angle max_lean = Angle::from_ratio(8, 10);  ///< of a motorcycle, 0 … 1.2 rad
 
   friend bool operator==(const VehicleDef&, const VehicleDef&) = default;
 };
@@ -125,6 +139,7 @@ struct VehicleView {
   std::array<WheelView, 2 * k_max_axles> wheels{};  ///< left and right of each axle
   AngularVelocity engine_speed{};
   std::int32_t gear = 0;
+  Angle lean{};  ///< of the chassis to the right, against gravity
 };
 
 /// The vehicle of a chassis; nothing where it has none.
@@ -134,5 +149,12 @@ struct VehicleView {
 /// wheels driven, front wheels steered: to begin with. `length`: between the axles.
 [[nodiscard]] VehicleDef make_car(Length length, Length half_track, Length mount_height,
                                   Torque torque);
+
+/// A motorcycle with a wheel ahead, steered, and one behind, driven.
+[[nodiscard]] VehicleDef make_motorcycle(Length length, Length mount_height, Torque torque);
+
+/// A tracked vehicle on three wheels a side, of so much length between the first and the last ones.
+[[nodiscard]] VehicleDef make_tank(Length length, Length half_track, Length mount_height,
+                                   Torque torque);
 
 }  // namespace lockstone

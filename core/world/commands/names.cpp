@@ -34,6 +34,10 @@ std::string_view to_string(WheelCast cast) {
   constexpr std::array<std::string_view, 2> k_names{"ray", "sphere"};
   return name_of(k_names, cast);
 }
+std::string_view to_string(VehicleKind kind) {
+  constexpr std::array<std::string_view, 3> k_names{"car", "motorcycle", "tracked"};
+  return name_of(k_names, kind);
+}
 std::string_view to_string(AxisMode mode) {
   constexpr std::array<std::string_view, 3> k_names{"locked", "free", "limited"};
   return name_of(k_names, mode);

@@ -23,8 +23,7 @@ void ComputedBodies::choose(WorldData& world, bool has_sleepers, const TickMemor
   most_ = awake - awake / 4;
   count_ = 0;
   all_ = changes_.concern_all() || changes_.bodies().size() > most_ || may_reach_all(world, known);
-  // Vehicles are driven whole: all bodies are computed again, or none.
-  if (all_ || world.header.vehicle_count != 0) return;
+  if (all_) return;
   std::ranges::fill(is_reached_, std::uint8_t{0});
   std::ranges::fill(is_computed_, std::uint8_t{0});
   add_roots(world, known);
@@ -47,7 +46,8 @@ bool ComputedBodies::may_reach_all(WorldData& world, const TickMemory& known) co
     return has_triangles(world.assets->find(record.shape().asset_id()));
   };
   return std::ranges::any_of(changes_.bodies(), [&](std::uint32_t body) {
-    return has_triangles(world.assets->find(world.bodies[body].shape().asset_id())) || had_triangles(body);
+    return has_triangles(world.assets->find(world.bodies[body].shape().asset_id())) ||
+           had_triangles(body);
   });
 }
 
@@ -56,6 +56,8 @@ void ComputedBodies::add_roots(const WorldData& world, const TickMemory& known) 
     add_root(body, known);
   for (const std::uint32_t body : known.lookers)
     add_root(body, known);
+  for (std::uint32_t i = 0; i < world.header.vehicle_count; ++i)
+    add_root(world.vehicles[i].chassis, known);
   if (changes_.bodies().empty()) return;
   for (const std::uint32_t body : changes_.bodies()) {
     add_root(body, known);

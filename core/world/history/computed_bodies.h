@@ -16,7 +16,8 @@ namespace lockstone {
 
 /// Chosen before the tick: bodies that differ from the remembered ones, those whose bounds they
 /// overlap, now or then, and all of their groups. Bodies that looked along their paths in that tick
-/// are always computed, since they may now find others there.
+/// are always computed, since they may now find others there; so are vehicles, which look for their
+/// ground.
 class ComputedBodies final : public PairFilter {
  public:
   /// No function but this allocates.

@@ -173,7 +173,8 @@ bool write_next_state(const WorldData& world, const ComputedBodies& computed,
     to.put(rule);
   for (const SurfaceRuleRecord& rule : surface_rules_of(world, header))
     to.put(rule);
-  LKS_ASSERT(header.vehicle_count == 0);  // such a world is computed whole
+  for (const VehicleRecord& vehicle : std::span(world.vehicles).first(header.vehicle_count))
+    to.put(vehicle);
   world.visit(TerrainTileStore{}, [&](auto tiles) {
     for (const TerrainTileRecord& tile : tiles)
       to.put(tile);

@@ -32,13 +32,12 @@ void StateChanges::find(const WorldData& world, const NativeState<WorldStores>& 
   any_ = concern_all_ =
       world.header.tick != before.header.tick || world.header.gravity != before.header.gravity ||
       has_changed<FluidStore>(world, before) || has_changed<PairRuleStore>(world, before) ||
-      has_changed<SurfaceRuleStore>(world, before) || has_changed<VehicleStore>(world, before) ||
-      has_changed<TerrainTileStore>(world, before);
+      has_changed<SurfaceRuleStore>(world, before) || has_changed<TerrainTileStore>(world, before);
   if (concern_all_) return;
+  any_ = has_changed<VehicleStore>(world, before);
   find_bodies(world, before);
   find_contacts(world, before);
   find_joints(world, before);
-  concern_all_ = concern_all_ || (any_ && world.header.vehicle_count != 0);
 }
 
 void StateChanges::find_bodies(const WorldData& world, const NativeState<WorldStores>& before) {

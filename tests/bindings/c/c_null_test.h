@@ -127,6 +127,8 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_set_gravity(world, NULL));
   NULLED(lks_vehicle_controls_init(NULL, sizeof(lks_vehicle_controls)));
   NULLED(lks_make_car(1, 1, 1, 1, NULL, sizeof(lks_vehicle_def)));
+  NULLED(lks_make_motorcycle(1, 1, 1, NULL, sizeof(lks_vehicle_def)));
+  NULLED(lks_make_tank(1, 1, 1, 1, NULL, sizeof(lks_vehicle_def)));
   NULLED(lks_set_vehicle(NULL, 0, NULL));
   NULLED(lks_drive_vehicle(NULL, 0, NULL));
   NULLED(lks_drive_vehicle(world, 0, NULL));

@@ -146,12 +146,33 @@ static class SessionTest
         }
     }
 
+    static unsafe void RoundHulls()
+    {
+        var corners = new lks_i32x3[8];
+        for (int i = 0; i < 8; ++i)
+            corners[i] = Units.Vec32(Units.LengthMm(i % 2 * 1000), Units.LengthMm(i / 2 % 2 * 1000), Units.LengthMm(i / 4 * 1000));
+        World world;
+        lks_shape plain, round;
+        using (var assets = new Assets())
+        {
+            plain = assets.AddHull(corners);
+            round = assets.AddHull(corners, 64, Units.LengthMm(100));
+            world = new World(Defaults.World(), assets);
+        }
+        Expect(plain.kind == Native.LKS_HULL && plain.asset != round.asset, "two hulls");
+        lks_body_def body = Defaults.Body();
+        body.shape = round;
+        Expect(world.CreateBody(body) != 0, "a rounded hull is a body");
+        world.Dispose();
+    }
+
     static int Main()
     {
         GameLibrary game = Pushers.MakeLibrary();
         PlayMatch(game);
         ShowMatch(game);
         Refuse(game);
+        RoundHulls();
         GC.Collect();
         GC.WaitForPendingFinalizers();
         Console.WriteLine(failures == 0 ? "passed" : "failed");

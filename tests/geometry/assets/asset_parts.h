@@ -25,6 +25,8 @@ inline SeenPart seen(const geometry::Part& part) {
 
 class CollectParts final : public geometry::PartVisitor {
  public:
+  CollectParts() : PartVisitor(true) {}
+
   std::vector<SeenPart> parts;
   void visit(const geometry::Part& part) override { parts.push_back(seen(part)); }
 };

@@ -123,6 +123,87 @@ TEST(ArenaRules, WhoFallsLosesAPointAndReturns) {
   EXPECT_GT(solo.place().y, Position{});
 }
 
+constexpr ArenaConfig k_alone_in_the_yard{.seed = 1, .loose_bodies = 0, .players = 1};
+
+// Beside the buggy, which looks along -x, and in it.
+Solo in_the_buggy() {
+  Solo solo(k_alone_in_the_yard);
+  solo.play(60, {});
+  solo.put(solo.player().body, 13'000, 900, 13'500);
+  solo.play(1, {.buttons = k_ride});
+  EXPECT_EQ(solo.simulation.arena().state.game.driver, 1U);
+  return solo;
+}
+
+TEST(ArenaBuggy, IsDrivenWhereTheStickPoints) {
+  Solo solo = in_the_buggy();
+  const BodyHandle buggy = solo.simulation.arena().level.buggy;
+  solo.play(90, {.move_x = -127});
+  EXPECT_LT(solo.world().velocity(buggy).x, Velocity::from_integer(-4));
+  EXPECT_LT(solo.world().position(buggy).x, millimetres(10'000));
+  solo.play(90, {.move_z = -127});
+  EXPECT_LT(solo.world().velocity(buggy).z, Velocity::from_integer(-3));
+  const Vec3<Length> apart = offset_between(solo.world().position(buggy), solo.place());
+  EXPECT_LT(squared_raw(apart), squared_raw({millimetres_long(1500), {}, {}}));
+  solo.play(200, {});
+  EXPECT_LT(abs(solo.world().velocity(buggy).z), Velocity::from_ratio(1, 10));
+}
+
+TEST(ArenaBuggy, IsLeftByThePlayerAndStands) {
+  Solo solo = in_the_buggy();
+  const BodyHandle buggy = solo.simulation.arena().level.buggy;
+  solo.play(40, {.move_x = -127});
+  solo.play(1, {.buttons = k_ride});
+  EXPECT_EQ(solo.simulation.arena().state.game.driver, 0U);
+  solo.play(180, {});
+  EXPECT_LT(abs(solo.world().velocity(buggy).x), Velocity::from_ratio(1, 10));
+  EXPECT_GT(solo.place().y, millimetres(800));
+  const Vec3<Position> before = solo.place();
+  solo.play(60, {.move_x = -127});
+  EXPECT_LT(solo.place().x, before.x - millimetres(4000));  // on foot, and it meets the ground
+}
+
+TEST(ArenaBuggy, IsLeftByAPlayerWhoIsGone) {
+  Solo solo = in_the_buggy();
+  solo.play(1, {}, InputOrigin::absent);
+  EXPECT_EQ(solo.simulation.arena().state.game.driver, 0U);
+}
+
+TEST(ArenaBuggy, ComesBackAfterItFell) {
+  Solo solo = in_the_buggy();
+  const BodyHandle buggy = solo.simulation.arena().level.buggy;
+  solo.put(buggy, 30'000, 1000, 0);
+  solo.play(150, {});
+  EXPECT_EQ(solo.simulation.arena().state.game.driver, 0U);
+  EXPECT_EQ(solo.player().score, -1);
+  solo.play(60, {});
+  const Vec3<Length> apart = offset_between(buggy_def().position, solo.world().position(buggy));
+  EXPECT_LT(squared_raw(apart), squared_raw({millimetres_long(500), {}, {}}));
+}
+
+TEST(ArenaBuggy, StandsUpAgain) {
+  Solo solo(k_alone_in_the_yard);
+  solo.play(60, {});
+  const BodyHandle buggy = solo.simulation.arena().level.buggy;
+  const Quat on_its_back{Unit::from_integer(1), {}, {}, {}};
+  ASSERT_EQ(solo.world().apply(
+                Teleport{buggy, {{}, millimetres(2500), millimetres(14'000)}, on_its_back}),
+            Status::ok);
+  solo.play(300, {});
+  EXPECT_GT(to_matrix(pose_of(solo.world(), buggy).orientation).y.y, Unit::from_ratio(9, 10));
+}
+
+TEST(ArenaBuggy, ClaimsTheCratesThatItHits) {
+  Solo solo({.seed = 1, .loose_bodies = 1, .players = 1});
+  solo.play(60, {});
+  const BodyHandle crate = solo.simulation.arena().level.loose[0];
+  solo.put(crate, 7'000, 500, 15'000);
+  solo.put(solo.player().body, 13'000, 900, 13'500);
+  solo.play(1, {.buttons = k_ride});
+  solo.play(120, {.move_x = -127});
+  EXPECT_EQ(tag_of(solo.world(), crate).owner, 1);
+}
+
 TEST(ArenaIntegers, HeadingsAgreeWithTheirDirections) {
   for (int yaw = -32768; yaw < 32768; yaw += 97) {
     const Vec3<Unit> direction = direction_of(static_cast<std::int16_t>(yaw));
@@ -144,6 +225,7 @@ TEST(ArenaIntegers, SpeedsAreShortenedToTheLimit) {
 
 /// The deeds of the bots in one match.
 struct Deeds {
+  int ridden = 0;  // ticks in the buggy
   std::set<std::uint64_t> inputs;
   std::uint8_t buttons = 0;
   std::int64_t farthest = 0;  // squared, see squared_raw
@@ -159,6 +241,7 @@ TEST(ArenaBots, MovePressEverythingAndScore) {
       deeds[slot].inputs.insert(static_cast<std::uint16_t>(input.yaw) | std::uint64_t{input.buttons}
                                                                             << 16);
       deeds[slot].buttons |= input.buttons;
+      deeds[slot].ridden += simulation.arena().state.game.driver == slot + 1 ? 1 : 0;
       const BodyHandle body = simulation.arena().state.players[slot].body;
       const std::int64_t way =
           squared_raw(offset_between(spawn_point(slot), simulation.arena().world.position(body)));
@@ -166,7 +249,9 @@ TEST(ArenaBots, MovePressEverythingAndScore) {
     }
   }
   std::int32_t points = 0;
+  int ridden = 0;
   for (std::size_t slot = 0; slot < deeds.size(); ++slot) {
+    ridden += deeds[slot].ridden;
     EXPECT_GT(deeds[slot].inputs.size(), 100U);
     EXPECT_EQ(deeds[slot].buttons & (k_jump | k_push | k_grab), k_jump | k_push | k_grab);
     EXPECT_GT(deeds[slot].farthest, squared_raw({millimetres_long(6000), {}, {}}));
@@ -174,6 +259,7 @@ TEST(ArenaBots, MovePressEverythingAndScore) {
   }
   EXPECT_GT(simulation.arena().state.game.goals, 3U);
   EXPECT_GT(points, 5);
+  EXPECT_GT(ridden, 200);
 }
 
 TEST(ArenaBots, PlayTheSameOnTheSameView) {

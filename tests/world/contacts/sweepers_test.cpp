@@ -170,6 +170,47 @@ TEST_F(Sweepers, ABounceBehindATriggerIsSeenInTheSameTick) {
   EXPECT_EQ(seen.exits, 1);
 }
 
+// 36 passes in a world of 16 bodies: which of them are told must not depend on the shape of the
+// tree of bounds, which depends on the moves before.
+TEST_F(Sweepers, TooManyPassesAreCutInTheOrderOfTheirPairs) {
+  const auto cut_after_moves = [&](const std::vector<int>& moves) {
+    World world = make_world();
+    BodyDef gate;
+    gate.is_trigger = true;
+    gate.motion = MotionType::static_body;
+    gate.shape = Shape::box(0.01_m, 8_m, 8_m);
+    for (int i = 0; i < 6; ++i) {
+      gate.position.x = Position::from_ratio(i, 4);
+      test::add(world, gate);
+    }
+    for (const int i : moves) {
+      const BodyHandle body = world.body_at(static_cast<std::uint32_t>(i));
+      const Vec3<Position> place = world.position(body);
+      EXPECT_EQ(world.apply(Teleport{body, {500_m, {}, {}}, {}}), Status::ok);
+      test::step(world, 1);
+      EXPECT_EQ(world.apply(Teleport{body, place, {}}), Status::ok);
+      test::step(world, 1);
+    }
+    for (int i = 0; i < 6; ++i) {
+      BodyDef ball = test::dynamic_body(Shape::sphere(0.05_m), -1_m, {}, Position::from_integer(i));
+      ball.velocity.x = 240_mps;
+      test::add(world, ball);
+    }
+    EXPECT_EQ(world.step().status, Status::capacity_exhausted);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> seen;
+    for (const ContactEvent& event : world.events())
+      if (event.kind == EventKind::trigger_enter) seen.emplace_back(event.a.index, event.b.index);
+    return seen;
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> first;
+  for (std::uint32_t ball = 6; first.size() < 16; ++ball)
+    for (std::uint32_t gate = 0; gate < 6 && first.size() < 16; ++gate)
+      first.emplace_back(ball, gate);
+  EXPECT_EQ(cut_after_moves({}), first);
+  EXPECT_EQ(cut_after_moves({0, 3, 1}), first);
+  EXPECT_EQ(cut_after_moves({5, 4, 0, 2}), first);
+}
+
 TEST_F(Sweepers, ATriggerDoesNotSeeABodyThatIsStoppedBeforeIt) {
   World world = make_world();
   BodyDef wall;

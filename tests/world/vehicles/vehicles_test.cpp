@@ -7,29 +7,21 @@
 #include <lockstone/rollback_history.h>
 #include <lockstone/vehicle.h>
 
-#include "tests/world/world_fixture.h"
+#include "tests/world/vehicles/vehicle_fixture.h"
 
 namespace lockstone {
 namespace {
 
 using namespace literals;
+using test::drive;
+using test::ground_speed;
+using test::k_full;
+using test::make_road;
 using test::metres;
 using test::metres_per_second;
 
-constexpr double k_gravity = 9.81, k_pi = 3.14159265358979;
-constexpr Unit k_full = Unit::from_integer(1);
+constexpr double k_gravity = test::k_earth_gravity, k_pi = 3.14159265358979;
 constexpr Length k_wheelbase = 2.5_m;
-
-World road(std::uint16_t tick_rate = 60) {
-  World world =
-      test::make_world({.body_capacity = 64, .tick_rate = tick_rate, .vehicle_capacity = 16});
-  BodyDef ground;
-  ground.motion = MotionType::static_body;
-  ground.shape = Shape::half_space();
-  ground.material.friction = 1_r;
-  test::add(world, ground);
-  return world;
-}
 
 VehicleDef car() {
   VehicleDef def = make_car(k_wheelbase, 0.75_m, -0.1_m, Torque::from_integer(350));
@@ -45,13 +37,7 @@ BodyDef chassis_def() {
 }
 
 BodyHandle add_car(World& world, const VehicleDef& vehicle, const BodyDef& def = chassis_def()) {
-  const BodyHandle body = test::add(world, def);
-  EXPECT_EQ(world.apply(SetVehicle{body, vehicle}), Status::ok);
-  return body;
-}
-
-void drive(World& world, BodyHandle car, const VehicleControls& controls) {
-  EXPECT_EQ(world.apply(DriveVehicle{car, controls}), Status::ok);
+  return test::add_vehicle(world, vehicle, def);
 }
 
 // At rest on its springs, then at a speed, with the wheels turning.
@@ -62,15 +48,10 @@ void set_speed(World& world, BodyHandle car, Velocity speed) {
   test::step(world, 20);
 }
 
-double speed_of(const World& world, BodyHandle body) {
-  const Vec3<Velocity> v = world.velocity(body);
-  return std::hypot(metres_per_second(v.x), metres_per_second(v.z));
-}
-
 // v² / (2 μ g), with brakes that hold each wheel at 90 % of its grip: the loads of the axles shift
 // by μ m g h / L. A driver who stamps on them locks the wheels.
 TEST(Vehicles, BrakeOverTheDistanceOfTheirGrip) {
-  World world = road();
+  World world = make_road();
   VehicleDef def = car();
   const double height = 0.33 + 0.25 + 0.1 - k_gravity / std::pow(2 * k_pi * 1.5, 2);
   const double moved = 0.9 * height / 2.5;  // of the weight
@@ -84,18 +65,18 @@ TEST(Vehicles, BrakeOverTheDistanceOfTheirGrip) {
     drive(world, body, {.brake = Unit::from_ratio(i, 60), .gear = 0});
     test::step(world, 1);
   }
-  const double v = speed_of(world, body), from = metres(world.position(body).x);
+  const double v = ground_speed(world, body), from = metres(world.position(body).x);
   test::step(world, 300);
   const double way = metres(world.position(body).x) - from;
   const double reference = v * v / (2 * 0.9 * k_gravity);
   std::printf("brakes from %.3f m/s over %.3f m, reference %.3f m\n", v, way, reference);
-  EXPECT_LT(speed_of(world, body), 1e-3);
+  EXPECT_LT(ground_speed(world, body), 1e-3);
   EXPECT_NEAR(way, reference, 0.03 * reference);
 }
 
 // F = μ m g · sin(C π/2) of locked wheels, C = 1.65
 TEST(Vehicles, SlideWithLockedWheels) {
-  World world = road();
+  World world = make_road();
   VehicleDef def = car();
   for (Axle& axle : std::span(def.axles).first(2))
     axle.brake = Torque::from_integer(20000);
@@ -103,9 +84,9 @@ TEST(Vehicles, SlideWithLockedWheels) {
   set_speed(world, body, 30_mps);
   drive(world, body, {.brake = k_full, .gear = 0});
   test::step(world, 30);
-  const double v = speed_of(world, body);
+  const double v = ground_speed(world, body);
   test::step(world, 60);
-  const double slowed = v - speed_of(world, body);
+  const double slowed = v - ground_speed(world, body);
   // at a slip of 1, ten times the best one; the table ends at eight times
   const double slip = 8 * std::tan(k_pi / 2 / 1.65);
   std::printf("slides: %.4f m/s², reference %.4f\n", slowed,
@@ -115,7 +96,7 @@ TEST(Vehicles, SlideWithLockedWheels) {
 
 // a = T · ratio / (r · m'), m' with the wheels and the engine
 TEST(Vehicles, AccelerateByTheTorqueOfTheirEngine) {
-  World world = road();
+  World world = make_road();
   VehicleDef def = car();
   def.engine.torque.fill(Torque::from_integer(200));
   def.gearbox.automatic = false;
@@ -123,9 +104,9 @@ TEST(Vehicles, AccelerateByTheTorqueOfTheirEngine) {
   set_speed(world, body, 12_mps);
   drive(world, body, {.throttle = k_full, .gear = 2});
   test::step(world, 60);
-  const double v = speed_of(world, body);
+  const double v = ground_speed(world, body);
   test::step(world, 60);
-  const double gained = speed_of(world, body) - v;
+  const double gained = ground_speed(world, body) - v;
   const double ratio = 2.05 * 3.7, radius = 0.33;
   const double mass = 1500 + (4 * 1.2 + 0.2 * ratio * ratio) / (radius * radius);
   std::printf("accelerates: %.4f m/s², reference %.4f\n", gained, 200 * ratio / radius / mass);
@@ -135,7 +116,7 @@ TEST(Vehicles, AccelerateByTheTorqueOfTheirEngine) {
 // f = √(k/m) / 2π; a damping ratio ζ lets each swing shrink by exp(−2πζ/√(1−ζ²)).
 TEST(Vehicles, BounceAtTheFrequencyOfTheirSprings) {
   for (const double damping : {0.0, 0.2}) {
-    World world = road();
+    World world = make_road();
     VehicleDef def = car();
     for (Axle& axle : std::span(def.axles).first(2)) {
       axle.damping_ratio = Number::from_ratio(static_cast<std::int64_t>(damping * 10), 10);
@@ -173,7 +154,7 @@ TEST(Vehicles, BounceAtTheFrequencyOfTheirSprings) {
 
 // Ackermann: R = L / tan δ at the middle of the axle that is not steered.
 TEST(Vehicles, CornerSlowlyOnTheRadiusOfAckermann) {
-  World world = road();
+  World world = make_road();
   VehicleDef def = car();
   def.axles[1].differential_lock = {};
   const BodyHandle body = add_car(world, def);
@@ -182,7 +163,7 @@ TEST(Vehicles, CornerSlowlyOnTheRadiusOfAckermann) {
   test::step(world, 60);
   const BodyView view = world.body(body);
   const double turning = std::ldexp(static_cast<double>(view.angular_velocity.y.raw), -32);
-  const double v = speed_of(world, body);
+  const double v = ground_speed(world, body);
   const double at_rear = std::sqrt(v * v / (turning * turning) - 1.25 * 1.25);
   std::printf("radius %.4f m, reference %.4f m, turning %.4f\n", at_rear, 2.5 / std::tan(0.3),
               turning);
@@ -193,7 +174,7 @@ TEST(Vehicles, CornerSlowlyOnTheRadiusOfAckermann) {
 // The steering angle for a radius R at a speed v is L/R + K v²/(g R). A car whose tyres are alike
 // and whose mass stands in the middle has K = 0 while its tyres are far from their limit.
 TEST(Vehicles, SteerNeutrallyWhenBalanced) {
-  World world = road();
+  World world = make_road();
   VehicleDef def = car();
   for (Axle& axle : std::span(def.axles).first(2))
     axle.anti_roll = {}, axle.differential_lock = {};
@@ -203,9 +184,9 @@ TEST(Vehicles, SteerNeutrallyWhenBalanced) {
   test::step(world, 120);
   const double turning =
       std::abs(std::ldexp(static_cast<double>(world.body(body).angular_velocity.y.raw), -32));
-  const double radius = speed_of(world, body) / turning;
-  const double gradient =
-      (0.03 - 2.5 / radius) / (speed_of(world, body) * speed_of(world, body) / k_gravity / radius);
+  const double radius = ground_speed(world, body) / turning;
+  const double gradient = (0.03 - 2.5 / radius) / (ground_speed(world, body) *
+                                                   ground_speed(world, body) / k_gravity / radius);
   std::printf("radius %.3f m, reference %.3f m; understeer gradient %.5f rad\n", radius, 2.5 / 0.03,
               gradient);
   EXPECT_NEAR(gradient, 0, 0.01);
@@ -235,26 +216,26 @@ TEST(Vehicles, StandOnASlopeWithoutCreeping) {
 }
 
 TEST(Vehicles, ShiftUpAsTheyGainSpeed) {
-  World world = road();
+  World world = make_road();
   const BodyHandle body = add_car(world, car());
   drive(world, body, {.throttle = k_full, .gear = 1});
   test::step(world, 60 * 15);
   const std::optional<VehicleView> view = vehicle_of(world, body);
   ASSERT_TRUE(view);
-  std::printf("after 15 s: %.2f m/s, gear %d\n", speed_of(world, body), view->gear);
+  std::printf("after 15 s: %.2f m/s, gear %d\n", ground_speed(world, body), view->gear);
   EXPECT_GE(view->gear, 3);
-  EXPECT_GT(speed_of(world, body), 30);
+  EXPECT_GT(ground_speed(world, body), 30);
   EXPECT_NEAR(metres(world.position(body).z), 0, 0.5);
   EXPECT_FALSE(world.find_fault());
 }
 
 TEST(Vehicles, DriveBackwardsAndStayWhereNothingDrives) {
-  World world = road();
+  World world = make_road();
   const BodyHandle body = add_car(world, car());
   drive(world, body, {.throttle = Unit::from_ratio(1, 2), .gear = -1});
   test::step(world, 180);
   EXPECT_LT(metres_per_second(world.velocity(body).x), -3);
-  World other = road();
+  World other = make_road();
   const BodyHandle still = add_car(other, car());
   drive(other, still, {.gear = 1});
   test::step(other, 600);
@@ -262,7 +243,7 @@ TEST(Vehicles, DriveBackwardsAndStayWhereNothingDrives) {
 }
 
 TEST(Vehicles, RollOverStepsOnSpheres) {
-  World world = road();
+  World world = make_road();
   BodyDef step;
   step.motion = MotionType::static_body;
   step.shape = Shape::box(5_m, 0.06_m, 5_m);
@@ -278,7 +259,7 @@ TEST(Vehicles, RollOverStepsOnSpheres) {
 }
 
 TEST(Vehicles, PushTheGroundThatBearsThem) {
-  World world = road();
+  World world = make_road();
   BodyDef raft = test::dynamic_body(Shape::box(4_m, 0.2_m, 3_m), {}, 0.2_m, {});
   raft.mass.mass = Mass::from_integer(3000);
   raft.material.friction = {};
@@ -314,7 +295,7 @@ TEST(Vehicles, GoWithTheirChassisAndAreBounded) {
 }
 
 TEST(Vehicles, AreRefusedOutOfRange) {
-  World world = road();
+  World world = make_road();
   const BodyHandle body = test::add(world, chassis_def());
   for (int i = 0; i < 6; ++i) {
     VehicleDef def = car();
@@ -331,9 +312,9 @@ TEST(Vehicles, AreRefusedOutOfRange) {
 
 // Saved at any tick, loaded elsewhere, with and without derived data: the same future.
 TEST(Vehicles, GoOnFromASnapshot) {
-  World world = road();
+  World world = make_road();
   const BodyHandle body = add_car(world, car());
-  World other = road();
+  World other = make_road();
   for (int i = 0; i < 240; ++i) {
     const VehicleControls controls{.throttle = k_full, .steer = Unit::from_ratio(i % 40 - 20, 40)};
     drive(world, body, controls);
@@ -351,28 +332,76 @@ TEST(Vehicles, GoOnFromASnapshot) {
   }
 }
 
+// Two cars of which one stands on a raft, and boxes that do not sleep.
+World car_park() {
+  World world = make_road();
+  BodyDef raft = test::dynamic_body(Shape::box(4_m, 0.2_m, 3_m), {}, 0.2_m, 20_m);
+  raft.mass.mass = Mass::from_integer(3000);
+  raft.allow_sleep = false;
+  test::add(world, raft);
+  for (int i = 0; i < 12; ++i) {
+    BodyDef box = test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {});
+    box.position.x = Position::from_integer(4 * i - 200);
+    box.allow_sleep = false;
+    test::add(world, box);
+  }
+  BodyDef chassis = chassis_def();
+  add_car(world, car(), chassis);
+  chassis.position = {{}, 1.15_m, 20_m};
+  add_car(world, car(), chassis);
+  return world;
+}
+
+// A wrong guess about one car: the boxes are not computed again, and the states are the same.
 TEST(Vehicles, RollBackAsTheyWere) {
-  World world = road(), other = road();
-  const BodyHandle body = add_car(world, car());
-  ASSERT_EQ(add_car(other, car()), body);
+  World world = car_park(), other = car_park();
+  const BodyHandle cars[] = {world.body_at(14), world.body_at(15)};
   RollbackHistory history(world, 16);
-  std::vector<std::byte> saved;
+  std::uint32_t recalled = 0;
   const auto controls = [](int tick) {
     return VehicleControls{.throttle = k_full, .steer = Unit::from_ratio(tick % 20 - 10, 20)};
   };
   for (int i = 0; i < 120; i += 8) {
-    saved = test::save(world, SnapshotKind::native);
-    for (int j = 0; j < 8; ++j) {  // a wrong guess
-      drive(world, body, {.throttle = {}, .gear = 1});
+    const BodyHandle body = cars[i / 8 % 2];
+    const std::vector<std::byte> saved = test::save(world, SnapshotKind::native);
+    for (int j = 0; j < 8; ++j) {
+      if (i % 24 == 0) drive(world, body, {.throttle = {}, .gear = 1});
       (void)history.step();
     }
     ASSERT_EQ(world.load(SnapshotKind::native, saved), Status::ok);
     for (int j = 0; j < 8; ++j) {
       drive(world, body, controls(i + j));
-      (void)history.step();
+      recalled += history.step().recalled_islands;
       drive(other, body, controls(i + j));
       test::step(other, 1);
       ASSERT_EQ(world.hash().total, other.hash().total) << i + j;
+    }
+  }
+  EXPECT_GE(recalled, 120U * 12);
+}
+
+// The guess gives a box wheels, or takes a car's away; or the truth does, and the guess does not.
+TEST(Vehicles, RollBackWhereTheyComeAndGo) {
+  for (int run = 0; run < 4; ++run) {
+    const bool comes = run % 2 == 0, was_guessed = run / 2 == 0;
+    World world = car_park(), other = car_park();
+    const BodyHandle body = world.body_at(comes ? 3 : 15);
+    const Command change = comes ? SetVehicle{body, car()} : SetVehicle{body, {}};
+    const auto change_if = [&](bool changes, World& of) {
+      EXPECT_TRUE(!changes || of.apply(change) == Status::ok);
+    };
+    RollbackHistory history(world, 16);
+    const std::vector<std::byte> saved = test::save(world, SnapshotKind::native);
+    change_if(was_guessed, world);
+    for (int j = 0; j < 8; ++j)
+      (void)history.step();
+    ASSERT_EQ(world.load(SnapshotKind::native, saved), Status::ok);
+    change_if(!was_guessed, world);
+    change_if(!was_guessed, other);
+    for (int j = 0; j < 8; ++j) {
+      (void)history.step();
+      test::step(other, 1);
+      ASSERT_EQ(world.hash().total, other.hash().total) << run << ", tick " << j;
     }
   }
 }

@@ -1,4 +1,5 @@
-// Row 40: a car of 1500 kg against the formulas of its motion, with the curves of its tyres.
+// Row 40: a car of 1500 kg against the formulas of its motion, with the curves of its tyres; the
+// lean of a motorcycle, and the radius of a tracked vehicle.
 #include <algorithm>
 #include <utility>
 
@@ -50,6 +51,7 @@ class Car {
 
   [[nodiscard]] std::span<Axle> axles() { return std::span(def_.axles).first(2); }
   [[nodiscard]] VehicleDef& def() { return def_; }
+  [[nodiscard]] BodyDef& chassis() { return body_; }
   [[nodiscard]] SceneRun& scene() { return scene_; }
   [[nodiscard]] BodyHandle body() const { return car_; }
 
@@ -63,8 +65,8 @@ class Car {
     (void)scene_.world().apply(DriveVehicle{car_, controls});
   }
   // At rest on its springs, then at a speed, with the wheels turning.
-  void roll(double speed) {
-    put();
+  void roll(double speed, double height = 0.75) {
+    put(height);
     scene_.run(3);
     (void)scene_.world().apply(SetVelocity{car_, fixed<Velocity>(speed, 0, 0)});
     scene_.run(0.5);
@@ -74,6 +76,7 @@ class Car {
     const fuzz::Real3 v = fuzz::real(scene_.world().velocity(car_));
     return std::hypot(v.x, v.z);
   }
+  [[nodiscard]] double lean() { return fuzz::real(vehicle_of(scene_.world(), car_)->lean); }
   [[nodiscard]] double turning() {
     return std::abs(fuzz::real(scene_.world().body(car_).angular_velocity.y));
   }
@@ -188,6 +191,36 @@ AccuracyResult parked(const Setting& setting) {
                             1e-3);
 }
 
+// tan φ = v²/(g·r), r of the centre of mass; it coasts.
+AccuracyResult leaning(const Setting& setting) {
+  Car car(setting);
+  car.chassis().shape = Shape::box(0.7_m, 0.5_m, 0.12_m);
+  car.chassis().mass.mass = Mass::from_integer(250);
+  car.def() = make_motorcycle(1.5_m, -0.25_m, Torque::from_integer(60));
+  car.def().tyre.rolling_resistance = {};
+  car.roll(12, 0.65);
+  car.drive({.steer = Unit::from_ratio(8, 100), .gear = 0});
+  car.scene().run(3);
+  const double expected = std::atan(car.speed() * car.turning() / k_gravity);
+  return car.scene().result("lean of a motorcycle, 12 m/s", "relative",
+                            std::abs(std::abs(car.lean()) / expected - 1), 0.01);
+}
+
+// b/2·(l + r)/(l − r) with the speeds 1 and 0.8 of the sides; on short tracks, which slip little.
+AccuracyResult tracks(const Setting& setting) {
+  Car car(setting);
+  car.chassis().shape = Shape::box(2_m, 0.4_m, 1_m);
+  car.chassis().mass.mass = Mass::from_integer(12'000);
+  car.def() = make_tank(0.6_m, 1.2_m, -0.2_m, Torque::from_integer(1500));
+  car.put(0.9);
+  car.drive({.throttle = Unit::from_ratio(3, 10)});
+  car.scene().run(3);
+  car.drive({.throttle = Unit::from_ratio(3, 10), .steer = Unit::from_ratio(1, 10)});
+  car.scene().run(5);
+  return car.scene().result("radius on short tracks", "relative",
+                            std::abs(car.speed() / car.turning() / (1.2 * 1.8 / 0.2) - 1), 0.04);
+}
+
 }  // namespace
 
 std::vector<AccuracyResult> measure_vehicle(const AccuracyOptions& options) {
@@ -205,6 +238,8 @@ std::vector<AccuracyResult> measure_vehicle(const AccuracyOptions& options) {
   add([](const Setting& s) { return bounce(s, 0, "period of the suspension", 0.005); });
   add([](const Setting& s) { return bounce(s, 0.2, "the same, damping ratio 0.2", 0.02); });
   add(parked);
+  add(leaning);
+  add(tracks);
   return results;
 }
 

@@ -104,6 +104,8 @@ lks_vehicle_def raw_of(const VehicleDef& def) {
   raw.wheel_inertia = def.wheel_inertia.raw;
   raw.cast = static_cast<std::uint32_t>(def.cast);
   raw.mask = def.mask;
+  raw.kind = static_cast<std::uint32_t>(def.kind);
+  raw.max_lean = def.max_lean.raw;
   return raw;
 }
 
@@ -120,6 +122,8 @@ VehicleDef vehicle_def_of(const lks_vehicle_def* from) {
   def.wheel_inertia.raw = raw.wheel_inertia;
   def.cast = enumerator(raw.cast, WheelCast::ray, WheelCast::sphere, "vehicle.cast");
   def.mask = raw.mask;
+  def.kind = enumerator(raw.kind, VehicleKind::car, VehicleKind::tracked, "vehicle.kind");
+  def.max_lean.raw = raw.max_lean;
   return def;
 }
 
@@ -147,6 +151,7 @@ lks_vehicle_view raw_of(const VehicleView& view) {
   raw.gear = view.gear;
   raw.engine_speed = view.engine_speed.raw;
   raw.wheel_count = 2 * view.def.axle_count;
+  raw.lean = view.lean.raw;
   for (std::size_t i = 0; i < raw.wheel_count; ++i) {
     const WheelView& wheel = view.wheels[i];
     raw.wheels[i] = {c::raw_of(wheel.centre),
@@ -172,6 +177,24 @@ lks_status lks_make_car(lks_length length, lks_length half_track, lks_length hei
     const VehicleDef car = make_car(Length::from_raw(length), Length::from_raw(half_track),
                                     Length::from_raw(height), Torque::from_raw(torque));
     give(raw_of(car), out, size, "out");
+  });
+}
+
+lks_status lks_make_motorcycle(lks_length length, lks_length height, lks_force torque,
+                               lks_vehicle_def* out, size_t size) {
+  return call([&] {
+    const VehicleDef cycle = make_motorcycle(Length::from_raw(length), Length::from_raw(height),
+                                             Torque::from_raw(torque));
+    give(raw_of(cycle), out, size, "out");
+  });
+}
+
+lks_status lks_make_tank(lks_length length, lks_length half_track, lks_length height,
+                         lks_force torque, lks_vehicle_def* out, size_t size) {
+  return call([&] {
+    const VehicleDef tank = make_tank(Length::from_raw(length), Length::from_raw(half_track),
+                                      Length::from_raw(height), Torque::from_raw(torque));
+    give(raw_of(tank), out, size, "out");
   });
 }
 

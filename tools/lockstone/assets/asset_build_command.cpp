@@ -37,6 +37,7 @@ struct BuildOptions {
   int max_vertices = 64;
   bool z_up = false;
   bool groups = false;
+  bool closed = false;
   bool force = false;
   bool json = false;
 };
@@ -74,6 +75,7 @@ bool parse_surface(const std::string& text, assets::ObjImport& import) {
 
 ShapeKind kind_of(const std::string& name) {
   if (name == "hull") return ShapeKind::hull;
+  if (name == "path") return ShapeKind::path;
   return name == "compound" ? ShapeKind::compound : ShapeKind::mesh;
 }
 
@@ -86,6 +88,7 @@ std::string parse(const BuildOptions& options, assets::ObjImport& import) {
     return "--scale: a number above 0 of at most nine digits";
   if (!weld) return "--weld: not a length";
   import.kind = kind_of(options.kind);
+  import.closed = options.closed;
   import.reading = {*scale, options.z_up};
   import.max_vertices = options.max_vertices;
   import.weld_tolerance = weld.value();
@@ -177,7 +180,7 @@ void add_asset_build_command(CLI::App& asset, int& exit_code) {
   command
       ->add_option("--as", options->kind,
                    "The kind of asset to build (default: mesh, height-field)")
-      ->check(CLI::IsMember({"hull", "mesh", "compound", "height-field"}));
+      ->check(CLI::IsMember({"hull", "mesh", "compound", "path", "height-field"}));
   command->add_option("--scale", options->scale, "OBJ: metres in the file's unit (default 1)");
   command->add_flag("--z-up", options->z_up, "OBJ: turn its z axis up to y");
   command
@@ -190,6 +193,8 @@ void add_asset_build_command(CLI::App& asset, int& exit_code) {
   command->add_option("--weld", options->weld, "Mesh: metres within which vertices become one");
   command->add_flag("--groups", options->groups,
                     "Mesh: each object of the OBJ file is a group that a world may switch off");
+  command->add_flag("--closed", options->closed,
+                    "Path: it goes on from the last vertex to the first");
   command->add_option("--cell", options->cell, "PNG: metres between samples (default 1)");
   command->add_option("--height", options->height, "PNG: metres from black to white");
   command->add_option("--base", options->base, "PNG: height of black in metres (default 0)");

@@ -9,6 +9,7 @@
 #include <lockstone/height_field.h>
 #include <lockstone/hull.h>
 #include <lockstone/mesh.h>
+#include <lockstone/path.h>
 #include <lockstone/testing/floating.h>
 
 #include "core/geometry/convex/parts.h"
@@ -39,6 +40,10 @@ void add_counts(const Asset& asset, ordered_json& json) {
     json["rows"] = field->rows();
   } else if (const auto* compound = dynamic_cast<const Compound*>(&asset)) {
     json["children"] = compound->children().size();
+  } else if (const auto* path = dynamic_cast<const Path*>(&asset)) {
+    json["points"] = path->points().size();
+    json["closed"] = path->is_closed();
+    json["length"] = to_double(path->length());
   }
 }
 
@@ -77,6 +82,8 @@ std::string kind_name(ShapeKind kind) {
       return "mesh";
     case ShapeKind::height_field:
       return "height-field";
+    case ShapeKind::path:
+      return "path";
     default:
       return "compound";
   }

@@ -1,9 +1,9 @@
 // Keys and a gamepad as inputs of the arena: tools/arena/input.h.
 const KEYS: Record<string, string> = {
   KeyW: "up", ArrowUp: "up", KeyS: "down", ArrowDown: "down", KeyA: "left", ArrowLeft: "left", KeyD: "right", ArrowRight: "right",
-  Space: "jump", KeyE: "push", KeyF: "grab", KeyX: "throw",
+  Space: "jump", KeyE: "push", KeyF: "grab", KeyX: "throw", KeyR: "ride",
 };
-const BUTTONS = ["jump", "push", "grab", "throw"] as const; // bit by bit; the pad's first four buttons
+const BUTTONS = ["jump", "push", "grab", "throw", "ride"] as const; // bit by bit; the pad's first five buttons
 const DEAD_ZONE = 0.2; // of a stick
 const INPUT_BYTES = 8;
 const TURN = 65536;

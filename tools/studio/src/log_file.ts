@@ -104,7 +104,7 @@ export class LogFile {
   }
 }
 
-const BUTTONS = ["jump", "push", "grab", "shoot"];
+const BUTTONS = ["jump", "push", "grab", "shoot", "ride"];
 
 /** An input in words: of the arena by its fields, of others as bytes. */
 export function inputText(log: LogFile, bytes: Uint8Array): string {

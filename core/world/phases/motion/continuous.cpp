@@ -159,6 +159,7 @@ void ContinuousCollision::run(StepReport& report) {
   if (world_.triggers.count() != 0)
     for (const Sweeper& each : sweepers_)
       passes_.note(each.body, motion_in_tick(each.body), {}, k_whole_tick);
+  passes_.finish();
   if (narrow_.knows_triangles()) clamp_to_fronts(world_, moved_);
   if (passes_.overflowed()) report.status = Status::capacity_exhausted;
 }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/collision/continuous/first_impact.h"
 #include "core/collision/continuous/relative_path.h"
 #include "core/world/phases/motion/continuous.h"
@@ -27,7 +29,7 @@ Sweep first_part(const Sweep& motion, Unit fraction) {
 TriggerPasses::TriggerPasses(WorldData& world, const TickContacts& found,
                              const ContinuousCollision& continuous, MovedBodies& moved)
     : world_(world), found_(found), continuous_(continuous), moved_(moved) {
-  passes_.reserve(world.def.body_capacity);
+  passes_.reserve(std::size_t{2} * world.def.body_capacity);
 }
 
 void TriggerPasses::begin() {
@@ -87,16 +89,22 @@ void TriggerPasses::note_pair(const Pair& pair, const Sweep& a, const Sweep& b) 
   if (!touch_on_way({shape_a, world_.cache.asset(pair.a), a},
                     {shape_b, world_.cache.asset(pair.b), b}))
     return;
-  if (passes_.size() < world_.def.body_capacity)
-    passes_.push_back(key);
-  else
-    overflowed_ = true;
+  if (passes_.size() == std::size_t{2} * world_.def.body_capacity) finish();
+  passes_.push_back(key);
+}
+
+// The first pairs of all are kept, whatever the order in which the tree's shape lets them be found.
+void TriggerPasses::finish() {
+  std::ranges::sort(passes_);
+  passes_.erase(std::unique(passes_.begin(), passes_.end()), passes_.end());
+  if (passes_.size() <= world_.def.body_capacity) return;
+  passes_.resize(world_.def.body_capacity);
+  overflowed_ = true;
 }
 
 // An entry and an exit for each pair that is apart again, in the order of the pairs.
 void TriggerPasses::add_events(std::vector<ContactEvent>& events) {
-  std::ranges::sort(passes_);
-  passes_.erase(std::unique(passes_.begin(), passes_.end()), passes_.end());
+  LKS_ASSERT(std::ranges::is_sorted(passes_));
   std::erase_if(passes_, [&](const Pair& pair) {
     return bodies_overlap(world_.placed(pair.a), world_.placed(pair.b));
   });

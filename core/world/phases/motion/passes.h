@@ -32,7 +32,10 @@ class TriggerPasses {
   /// their pairs.
   void add_events(std::vector<ContactEvent>& events);
 
-  /// Whether passes were dropped because there were more than bodies.
+  /// After the last note of a tick: puts the pairs in order, each once, and keeps the first ones,
+  /// as many as there is room for bodies.
+  void finish();
+  /// Whether pairs were dropped because there were more of them than room for bodies.
   [[nodiscard]] bool overflowed() const { return overflowed_; }
 
  private:
@@ -43,7 +46,7 @@ class TriggerPasses {
   const TickContacts& found_;
   const ContinuousCollision& continuous_;
   MovedBodies& moved_;
-  std::vector<Pair> passes_;
+  std::vector<Pair> passes_;  // until `finish` in any order, some twice
   bool overflowed_ = false;
 };
 

@@ -43,20 +43,29 @@ class DriveTrain {
         inverse_best_u_(k_real_one / (Real::of(vehicle.relaxation) * Real::of(vehicle.peak_slip))),
         inverse_best_w_(k_real_one /
                         (Real::of(vehicle.relaxation) * Real::of(vehicle.peak_angle))) {
-    for (std::size_t i = 0; i < count(); ++i)
+    for (std::size_t i = 0; i < count(); ++i) {
       turnings_[i] = turning_of(i);
+      speeds_right_[i] = contacts_[i].speed_right;
+    }
+    gear_ = ratio();
+    share_work();
   }
 
   // One part of a tick; adds the forces.
   void advance(std::span<TyreForce> forces) {
     std::array<Real, k_max_wheels> torques{};
-    drive(torques);
+    vehicle_.has(k_vehicle_has_tracks) ? drive_tracks(torques) : drive(torques);
     for (std::size_t i = 0; i < count(); ++i) {
-      WheelRecord& wheel = vehicle_.wheels[i];
       const TyreForce force = pull(i);
       forces[i] = {forces[i].ahead + force.ahead, forces[i].right + force.right};
-      turn(wheel, turnings_[i], torques[i] - force.ahead * turnings_[i].radius);
+      speeds_right_[i] = speeds_right_[i] + force.right * (contacts_[i].yield_right * dt_);
+      torques[i] = torques[i] - force.ahead * turnings_[i].radius;
+      if (!vehicle_.has(k_vehicle_has_tracks)) turn(vehicle_.wheels[i], turnings_[i], torques[i]);
     }
+    if (!vehicle_.has(k_vehicle_has_tracks)) return;
+    turn_side(0, torques);
+    turn_side(1, torques);
+    hold_ratio();
   }
 
  private:
@@ -98,7 +107,7 @@ class DriveTrain {
     }
     const Turning& turning = turnings_[i];
     const Real along = contact.speed_ahead - spin_of(wheel) * turning.radius;
-    const Real across = contact.speed_right;
+    const Real across = speeds_right_[i];
     Real u = (Real::of(wheel.slip_along) + along * dt_) * turning.kept;
     Real w = (Real::of(wheel.slip_across) + across * dt_) * turning.kept;
     bound(u, w, length_real(along * turning.steady_u, across * turning.steady_w));
@@ -137,31 +146,113 @@ class DriveTrain {
     return Real::of(vehicle_.ratios[static_cast<std::size_t>(vehicle_.gear - 1)]) * last;
   }
 
-  // The torque of the engine goes through the clutch to the wheels.
-  void drive(std::span<Real> torques) {
-    const Real gear = ratio(), engine_torque = torque_of_engine();
-    Real share{}, carrier{}, inertia{};
+  // The share of each wheel in the torque of the drive, and the inertia of the driven wheels.
+  void share_work() {
+    Real share{};
     for (std::size_t i = 0; i < count(); ++i) {
       share = share + turnings_[i].drive;
-      carrier = carrier + turnings_[i].drive * spin_of(vehicle_.wheels[i]);
-      if (turnings_[i].drive > Real{}) inertia = inertia + turnings_[i].inertia;
+      if (turnings_[i].drive > Real{}) driven_inertia_ = driven_inertia_ + turnings_[i].inertia;
     }
-    const Real engine = Real::of(vehicle_.engine_inertia);
+    share_ = share;
+    for (std::size_t i = 0; i < count(); ++i)
+      shares_[i] = share > Real{} ? turnings_[i].drive / share : Real{};
+    if (!vehicle_.has(k_vehicle_has_tracks)) reduced_ = reduced_inertia(driven_inertia_);
+  }
+
+  // Of the engine and a shaft beyond the gear, by their difference of speed.
+  [[nodiscard]] Real reduced_inertia(Real shaft) const {
+    if (gear_ == Real{}) return {};
+    const Real engine = Real::of(vehicle_.engine_inertia), beyond = shaft / (gear_ * gear_);
+    return engine * beyond / (engine + beyond);
+  }
+
+  // The torque of the engine goes through the clutch to the wheels.
+  void drive(std::span<Real> torques) {
+    Real carrier{};
+    for (std::size_t i = 0; i < count(); ++i)
+      carrier = carrier + turnings_[i].drive * spin_of(vehicle_.wheels[i]);
+    const Real torque =
+        share_ > Real{} ? turn_engine(carrier / share_, reduced_, gear_) : turn_engine({}, {}, {});
+    for (std::size_t i = 0; i < count(); ++i)
+      torques[i] = torque * shares_[i];
+    for (std::size_t i = 0; i + 1 < count(); i += 2)
+      lock(i, torques);
+  }
+
+  // Through the clutch to a shaft that turns at the speed `carrier`. Returns the torque on the
+  // shaft, none in gear 0.
+  [[nodiscard]] Real turn_engine(Real carrier, Real reduced, Real gear) {
+    const Real engine_torque = torque_of_engine(), engine = Real::of(vehicle_.engine_inertia);
     Real through{};
-    if (share > Real{} && gear != Real{}) {
-      const Real turns = carrier / share * gear;
-      const Real beyond = inertia / (gear * gear);
-      const Real reduced = engine * beyond / (engine + beyond);
+    if (gear != Real{}) {
+      const Real turns = carrier * gear;
       const Real wanted = (Real{vehicle_.engine_speed.raw} - turns) * reduced / (dt_ + dt_);
       const Real most = Real::of(vehicle_.clutch_torque) * grip_of_clutch(turns);
       through = clamp_real(wanted, -most, most);
     }
     const Real speed = Real{vehicle_.engine_speed.raw} + (engine_torque - through) * dt_ / engine;
     vehicle_.engine_speed = AngularVelocity::from_raw(std::max(speed, Real{}).raw);
-    for (std::size_t i = 0; i < count(); ++i)
-      torques[i] = share > Real{} ? through * gear * (turnings_[i].drive / share) : Real{};
-    for (std::size_t i = 0; i + 1 < count(); i += 2)
-      lock(i, torques);
+    return through * gear;
+  }
+
+  // The ratio a : b of the sides' speeds, left and right, that the steering gear wants.
+  struct Steering {
+    Real a, b;
+  };
+  [[nodiscard]] Steering steering() const {
+    const Real steer = Real::of(vehicle_.steer), twice = steer + steer;
+    return {k_real_one + std::min(twice, Real{}), k_real_one - std::max(twice, Real{})};
+  }
+
+  // The torques on the sides do the work of the shaft's, T: a·T/(a² + b²) and b·T/(a² + b²) where
+  // it turns at (a·l + b·r)/(a² + b²).
+  void drive_tracks(std::span<Real> torques) {
+    const auto [a, b] = steering();
+    const Real left = spin_of(vehicle_.wheels[0]), right = spin_of(vehicle_.wheels[1]);
+    const Real squares = a * a + b * b;
+    const Real inertia = a * a * inertia_of_side(0) + b * b * inertia_of_side(1);
+    const Real torque =
+        turn_engine((a * left + b * right) / squares, reduced_inertia(inertia), gear_) / squares;
+    torques[0] = a * torque;
+    torques[1] = b * torque;
+  }
+
+  [[nodiscard]] Real inertia_of_side(std::size_t side) const {
+    Real inertia{};
+    for (std::size_t i = side; i < count(); i += 2)
+      inertia = inertia + turnings_[i].inertia;
+    return inertia;
+  }
+
+  // Torques b·M and −a·M of the steering gear on the sides: they only slow.
+  void hold_ratio() {
+    const auto [a, b] = steering();
+    const Real left = spin_of(vehicle_.wheels[0]), right = spin_of(vehicle_.wheels[1]);
+    const Real yield_left = b / inertia_of_side(0), yield_right = a / inertia_of_side(1);
+    const Real most = turnings_[0].lock * dt_;
+    const Real held =
+        clamp_real((a * right - b * left) / (b * yield_left + a * yield_right), -most, most);
+    set_spin(0, left + yield_left * held);
+    set_spin(1, right - yield_right * held);
+  }
+
+  void set_spin(std::size_t side, Real spin) {
+    for (std::size_t i = side; i < count(); i += 2)
+      vehicle_.wheels[i].spin = AngularVelocity::from_raw(spin.raw);
+  }
+
+  // The wheels of a side are on one shaft.
+  void turn_side(std::size_t side, std::span<const Real> torques) {
+    Real torque{}, brake{};
+    for (std::size_t i = side; i < count(); i += 2) {
+      torque = torque + torques[i];
+      brake = brake + turnings_[i].brake;
+    }
+    Turning turning;
+    turning.spin_gain = dt_ / inertia_of_side(side);
+    turning.slowed = brake * turning.spin_gain;
+    turn(vehicle_.wheels[side], turning, torque);
+    set_spin(side, spin_of(vehicle_.wheels[side]));
   }
 
   // From the faster wheel of an axle to the slower one.
@@ -190,8 +281,8 @@ class DriveTrain {
     Real throttle = speed >= most ? Real{} : Real::of(vehicle_.throttle);
     const Real below = (idle - speed) * Real::ratio(8, 1) / idle;
     throttle = std::max(throttle, clamp_real(below, Real{}, k_real_one));
-    const Real drag = Real::of(vehicle_.engine_friction) * (speed / most);
-    return throttle * full_torque(speed / most) - drag * (k_real_one - throttle);
+    const Real part = speed / most, drag = Real::of(vehicle_.engine_friction) * part;
+    return throttle * full_torque(part) - drag * (k_real_one - throttle);
   }
 
   [[nodiscard]] Real full_torque(Real part) const {
@@ -207,7 +298,11 @@ class DriveTrain {
   std::span<const WheelContact> contacts_;
   Real dt_;
   Real inverse_best_u_, inverse_best_w_;  // 1 / deflection where the tyre grips best
+  Real gear_{}, share_{}, driven_inertia_{}, reduced_{};
+  std::array<Real, k_max_wheels> shares_{};
   std::array<Turning, k_max_wheels> turnings_{};
+  // Of a motorcycle they follow the forces: it is light to turn about its way ahead.
+  std::array<Real, k_max_wheels> speeds_right_{};
 };
 
 std::int32_t top_gear(const VehicleRecord& vehicle) {
@@ -230,7 +325,7 @@ void shift(VehicleRecord& vehicle) {
     --vehicle.shifting;
     return;
   }
-  const bool chooses = vehicle.is_automatic() && vehicle.wanted_gear > 0;
+  const bool chooses = vehicle.has(k_vehicle_automatic) && vehicle.wanted_gear > 0;
   const std::int32_t gear =
       chooses ? automatic_gear(vehicle) : std::clamp(vehicle.wanted_gear, -1, top_gear(vehicle));
   if (gear == vehicle.gear) return;

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstdint>
 
+#include <lockstone/assert.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
@@ -56,6 +57,13 @@ inline constexpr Real k_real_one{std::int64_t{1} << 32};
   constexpr Real k_most{std::int64_t{1} << 62};
   const Real a = clamp_real(x, -k_most, k_most), b = clamp_real(y, -k_most, k_most);
   return {static_cast<std::int64_t>(norm(a.raw, b.raw, 0))};
+}
+
+/// √x of x ≥ 0, rounded down.
+[[nodiscard]] inline Real sqrt_real(Real x) {
+  LKS_ASSERT(x >= Real{});
+  const auto raw = static_cast<std::uint64_t>(x.raw);
+  return {static_cast<std::int64_t>(isqrt128({raw >> 32, raw << 32}))};
 }
 
 struct Real3 {

@@ -83,12 +83,20 @@ Axle axle_of(const AxleRecord& axle) {
           axle.handbrake,     axle.differential_lock, axle.friction};
 }
 
+// The wheels of a side have one speed, and their tracks too.
+bool has_alike_wheels(std::span<const Axle> axles) {
+  return std::ranges::all_of(axles, [&](const Axle& a) { return a.radius == axles[0].radius; });
+}
+
 }  // namespace
 
 bool is_valid(const VehicleDef& def) {
-  if (def.axle_count < 1 || def.axle_count > k_max_axles || def.cast > WheelCast::sphere)
+  if (def.axle_count < 1 || def.axle_count > k_max_axles || def.cast > WheelCast::sphere ||
+      def.kind > VehicleKind::tracked)
     return false;
   const auto axles = std::span(def.axles).first(def.axle_count);
+  if (def.kind == VehicleKind::tracked && !has_alike_wheels(axles)) return false;
+  if (!is_between(def.max_lean, Angle{}, Angle::from_ratio(12, 10))) return false;
   return std::ranges::all_of(axles, [](const Axle& axle) { return is_valid(axle); }) &&
          is_valid(def.tyre) && is_valid(def.engine) && is_valid(def.gearbox) &&
          is_between(def.wheel_inertia, k_least_inertia, k_most_inertia);
@@ -120,6 +128,11 @@ VehicleRecord record_of(std::uint32_t chassis, const VehicleDef& def) {
   if (def.gearbox.automatic) record.flags |= k_vehicle_automatic;
   if (def.cast == WheelCast::sphere) record.flags |= k_vehicle_casts_spheres;
   record.mask = def.mask;
+  if (def.kind == VehicleKind::tracked) record.flags |= k_vehicle_has_tracks;
+  if (def.kind == VehicleKind::motorcycle) {
+    record.flags |= k_vehicle_leans;
+    record.max_lean = def.max_lean;
+  }
   set_controls(record, {});
   return record;
 }
@@ -132,11 +145,17 @@ VehicleDef def_of(const VehicleRecord& record) {
   def.tyre = {record.peak_slip, record.peak_angle, record.relaxation, record.rolling_resistance};
   def.engine = {record.torque, record.idle_speed, record.max_speed, record.engine_inertia,
                 record.engine_friction};
-  def.gearbox = {record.ratios,   record.reverse,    record.final_drive,   record.is_automatic(),
-                 record.shift_up, record.shift_down, record.clutch_torque, record.shift_ticks};
+  def.gearbox = {
+      record.ratios,   record.reverse,    record.final_drive,   record.has(k_vehicle_automatic),
+      record.shift_up, record.shift_down, record.clutch_torque, record.shift_ticks};
   def.wheel_inertia = record.wheel_inertia;
-  def.cast = record.casts_spheres() ? WheelCast::sphere : WheelCast::ray;
+  def.cast = record.has(k_vehicle_casts_spheres) ? WheelCast::sphere : WheelCast::ray;
   def.mask = record.mask;
+  if (record.has(k_vehicle_has_tracks)) def.kind = VehicleKind::tracked;
+  if (record.has(k_vehicle_leans)) {
+    def.kind = VehicleKind::motorcycle;
+    def.max_lean = record.max_lean;
+  }
   return def;
 }
 

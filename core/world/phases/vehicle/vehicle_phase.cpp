@@ -5,6 +5,7 @@
 
 #include "core/world/commands/command_executor.h"
 #include "core/world/phases/vehicle/drive_train.h"
+#include "core/world/phases/vehicle/lean.h"
 #include "core/world/phases/vehicle/wheel.h"
 #include "core/world/world_impl.h"
 
@@ -52,17 +53,44 @@ class VehicleTick {
       : world_(world), vehicle_(vehicle), chassis_(chassis_of(world, vehicle.chassis)) {}
 
   void run() {
-    for (std::size_t i = 0; i < count(); ++i)
-      contacts_[i] = find_ground(world_, vehicle_, chassis_, i, vehicle_.wheels[i]);
+    world_.moved.note_look(chassis_.body, chassis_.body);
+    for (std::size_t i = 0; i < count(); ++i) {
+      stand(i);
+      if (contacts_[i].exists) world_.moved.note_look(chassis_.body, contacts_[i].ground.index);
+    }
     load_wheels();
     shift(vehicle_);
     const auto forces = turn_wheels(vehicle_, contacts_, world_.def.tick_rate);
     for (std::size_t i = 0; i < count(); ++i)
       if (contacts_[i].exists) apply(i, forces[i]);
+    if (vehicle_.has(k_vehicle_leans)) keep_balance();
   }
 
  private:
   [[nodiscard]] std::size_t count() const { return std::size_t{2} * vehicle_.axle_count; }
+
+  // The wheels of an axle without a track are one.
+  void stand(std::size_t i) {
+    WheelRecord& wheel = vehicle_.wheels[i];
+    if (i % 2 == 0 || vehicle_.axles[i / 2].half_track != Length{}) {
+      contacts_[i] = find_ground(world_, vehicle_, chassis_, i, wheel);
+      if (vehicle_.has(k_vehicle_leans) && contacts_[i].exists)
+        contacts_[i].yield_right = yield_right(i);
+      return;
+    }
+    contacts_[i] = contacts_[i - 1];
+    wheel.compression = vehicle_.wheels[i - 1].compression;
+    wheel.is_grounded = vehicle_.wheels[i - 1].is_grounded;
+  }
+
+  // Twice that of one force where two wheels are one.
+  [[nodiscard]] Real yield_right(std::size_t i) const {
+    const WheelContact& contact = contacts_[i];
+    const Real3 arm = Real3::of(contact.point - world_.bodies[chassis_.body].position);
+    const Real one = k_real_one / std::max(chassis_.mass, Real::ratio(1, 1000)) +
+                     yield_to(world_, chassis_, cross_real(arm, contact.right));
+    return vehicle_.axles[i / 2].half_track == Length{} ? one + one : one;
+  }
 
   void load_wheels() {
     const Vec3<Position> apart = world_.bodies[chassis_.body].position - chassis_.frame.position;
@@ -82,6 +110,15 @@ class VehicleTick {
   void load(std::size_t wheel, Real push) {
     vehicle_.wheels[wheel].load =
         contacts_[wheel].exists ? std::max(push, Real{}).as<Force>() : Force{};
+  }
+
+  void keep_balance() {
+    const Balance balance =
+        balance_of(world_, vehicle_, chassis_, std::span(contacts_).first(count()));
+    const BodyHandle handle = world_.handle_of(chassis_.body);
+    CommandExecutor commands(world_);
+    (void)commands.execute(ApplyTorque{handle, balance.torque.as<Torque>(), Frame::world});
+    (void)commands.execute(ApplyForce{handle, balance.force.as<Force>(), Frame::world});
   }
 
   // At the point of the ground, and against it.

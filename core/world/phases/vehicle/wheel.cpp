@@ -19,10 +19,6 @@ Real3 turned(const Mat3& axes, const Real3& v) {
   return Real3::of(axes.x) * v.x + Real3::of(axes.y) * v.y + Real3::of(axes.z) * v.z;
 }
 
-Real3 unit(const Real3& v) {
-  return Real3::of(direction_of(v.x.raw, v.y.raw, v.z.raw));
-}
-
 // The x of the point about which a vehicle turns: the mean of the axles that are not steered.
 Real pole_of(const VehicleRecord& vehicle) {
   Real sum{};
@@ -53,7 +49,7 @@ Touch cast_wheel(const WorldData& world, const VehicleRecord& vehicle, const Cha
   QueryFilter filter;
   filter.mask = vehicle.mask;
   filter.ignore = world.handle_of(chassis.body);
-  if (vehicle.casts_spheres()) {
+  if (vehicle.has(k_vehicle_casts_spheres)) {
     const Real way = travel + radius;
     const ShapeHit hit = first_hit(
         world, {Shape::sphere(axle.radius), {start, {}}, (up * -way).as<Length>()}, filter);
@@ -71,6 +67,10 @@ Real grip_of(const AxleRecord& axle, const BodyRecord& ground) {
 }
 
 }  // namespace
+
+Real3 unit_real(const Real3& v) {
+  return Real3::of(direction_of(v.x.raw, v.y.raw, v.z.raw));
+}
 
 Real3 turning_of(const WorldData& world, std::uint32_t body) {
   const BodyRecord& record = world.bodies[body];
@@ -99,8 +99,20 @@ Chassis chassis_of(const WorldData& world, std::uint32_t body) {
   chassis.velocity = Real3::of(record.velocity);
   chassis.turning = turning_of(world, body);
   chassis.mass = Real::of(mass_of(record));
+  chassis.moments = Real3::of(mass_data_of(record).inertia);
   chassis.dt = Real::ratio(1, world.def.tick_rate);
   return chassis;
+}
+
+Real yield_to(const WorldData& world, const Chassis& chassis, const Real3& torque) {
+  constexpr Real k_least = Real::ratio(1, 1000);
+  const Mat3& axes = world.cache.rotation(chassis.body);
+  const auto part = [&](const Vec3<Unit>& axis, Real moment) {
+    const Real along = dot_real(torque, Real3::of(axis));
+    return along * along / std::max(moment, k_least);
+  };
+  return part(axes.x, chassis.moments.x) + part(axes.y, chassis.moments.y) +
+         part(axes.z, chassis.moments.z);
 }
 
 // The wheels of an axle turn about a point at the height of the pole, L behind: with the angle δ of
@@ -117,7 +129,7 @@ Real3 heading_of(const VehicleRecord& vehicle, std::size_t wheel) {
   const Real right = Real::of(axle.mount.z) +
                      (wheel % 2 == 0 ? -Real::of(axle.half_track) : Real::of(axle.half_track));
   const Real3 heading{ahead * cosine - right * sine, {}, ahead * sine};
-  return unit(ahead < Real{} ? heading * -k_real_one : heading);
+  return unit_real(ahead < Real{} ? heading * -k_real_one : heading);
 }
 
 WheelContact find_ground(const WorldData& world, const VehicleRecord& vehicle,
@@ -136,7 +148,7 @@ WheelContact find_ground(const WorldData& world, const VehicleRecord& vehicle,
   contact.ground = touch.body;
   contact.point = touch.point;
   const Real3 heading = turned(chassis.axes, heading_of(vehicle, wheel));
-  contact.ahead = unit(heading - contact.up * dot_real(contact.up, heading));
+  contact.ahead = unit_real(heading - contact.up * dot_real(contact.up, heading));
   contact.right = cross_real(contact.ahead, contact.up);
   const Real3 arm = Real3::of(touch.point - world.bodies[chassis.body].position);
   const Real3 velocity = chassis.velocity + cross_real(chassis.turning, arm) -

@@ -10,6 +10,9 @@ extern "C" {
 #endif
 
 enum { LKS_WHEEL_RAY = 0, LKS_WHEEL_SPHERE = 1 };
+/* A motorcycle leans into its turns, and an axle of half track 0 has one wheel. The wheels of a
+ * side of a tracked vehicle have one radius and turn together; their speeds steer. */
+enum { LKS_VEHICLE_CAR = 0, LKS_VEHICLE_MOTORCYCLE = 1, LKS_VEHICLE_TRACKED = 2 };
 
 /* Two wheels. Torques are of each wheel, N·m. */
 typedef struct lks_axle {
@@ -52,6 +55,8 @@ typedef struct lks_vehicle_def {
   lks_inertia wheel_inertia;
   uint32_t cast;
   uint32_t mask; /* categories of the bodies that carry it */
+  uint32_t kind;
+  lks_angle max_lean; /* of a motorcycle, 0 … 1.2 rad */
 } lks_vehicle_def;
 
 typedef struct lks_vehicle_controls {
@@ -80,7 +85,7 @@ typedef struct lks_vehicle_view {
   int32_t gear;
   lks_angular_velocity engine_speed;
   uint32_t wheel_count;
-  uint32_t reserved;
+  lks_angle lean;           /* of the chassis to the right */
   lks_wheel_view wheels[6]; /* left and right of each axle */
 } lks_vehicle_view;
 
@@ -90,6 +95,11 @@ LKS_API lks_status lks_vehicle_controls_init(lks_vehicle_controls* controls, siz
  * steered. `length`: between the axles; `height` of their mounts. */
 LKS_API lks_status lks_make_car(lks_length length, lks_length half_track, lks_length height,
                                 lks_force torque, lks_vehicle_def* out, size_t size);
+/* A motorcycle and a tracked vehicle to begin with. */
+LKS_API lks_status lks_make_motorcycle(lks_length length, lks_length height, lks_force torque,
+                                       lks_vehicle_def* out, size_t size);
+LKS_API lks_status lks_make_tank(lks_length length, lks_length half_track, lks_length height,
+                                 lks_force torque, lks_vehicle_def* out, size_t size);
 
 /* Makes a dynamic body a chassis, or with null takes its wheels away; at most
  * lks_world_def.vehicle_capacity. */

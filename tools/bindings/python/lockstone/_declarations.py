@@ -170,6 +170,9 @@ LKS_DENSITY_BITS = 8
 LKS_INERTIA_BITS = 28
 LKS_WHEEL_RAY = 0
 LKS_WHEEL_SPHERE = 1
+LKS_VEHICLE_CAR = 0
+LKS_VEHICLE_MOTORCYCLE = 1
+LKS_VEHICLE_TRACKED = 2
 LKS_MAX_HISTORY_TICKS = 256
 LOCKSTONE_GAME_ABI = 1
 LOCKSTONE_GAME_MAX_PARTS = 8
@@ -833,6 +836,8 @@ class lks_vehicle_def(Structure):
         ("wheel_inertia", c_int64),
         ("cast", c_uint32),
         ("mask", c_uint32),
+        ("kind", c_uint32),
+        ("max_lean", c_int32),
     ]
 
 
@@ -867,7 +872,7 @@ class lks_vehicle_view(Structure):
         ("gear", c_int32),
         ("engine_speed", c_int64),
         ("wheel_count", c_uint32),
-        ("reserved", c_uint32),
+        ("lean", c_int32),
         ("wheels", lks_wheel_view * 6),
     ]
 
@@ -1205,6 +1210,8 @@ FUNCTIONS = {
     "lks_to_decimal": [c_int32, c_int64, c_int32, c_void_p, c_size_t],
     "lks_vehicle_controls_init": [c_int32, POINTER(lks_vehicle_controls), c_size_t],
     "lks_make_car": [c_int32, c_int32, c_int32, c_int32, c_int64, POINTER(lks_vehicle_def), c_size_t],
+    "lks_make_motorcycle": [c_int32, c_int32, c_int32, c_int64, POINTER(lks_vehicle_def), c_size_t],
+    "lks_make_tank": [c_int32, c_int32, c_int32, c_int32, c_int64, POINTER(lks_vehicle_def), c_size_t],
     "lks_set_vehicle": [c_int32, c_void_p, c_uint64, POINTER(lks_vehicle_def)],
     "lks_drive_vehicle": [c_int32, c_void_p, c_uint64, POINTER(lks_vehicle_controls)],
     "lks_vehicle_get": [c_int32, c_void_p, c_uint64, POINTER(lks_vehicle_view)],

@@ -183,6 +183,8 @@ _CALLS = {
     "lks_set_allow_sleep": [_WORLD, _BODY, c_uint32],
     "lks_set_gravity": [_WORLD, POINTER(I64x3)],
     "lks_make_car": [c_int32, c_int32, c_int32, c_int64, c_void_p, c_size_t],
+    "lks_make_motorcycle": [c_int32, c_int32, c_int64, c_void_p, c_size_t],
+    "lks_make_tank": [c_int32, c_int32, c_int32, c_int64, c_void_p, c_size_t],
     "lks_set_vehicle": [_WORLD, _BODY, c_void_p],
     "lks_vehicle_controls_init": [c_void_p, c_size_t],
     "lks_drive_vehicle": [_WORLD, _BODY, c_void_p],

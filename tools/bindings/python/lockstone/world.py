@@ -196,6 +196,20 @@ class Body:
                          units.raw(torque, units.FORCE), byref(definition), sizeof(definition))
         self._call("lks_set_vehicle", byref(definition))
 
+    def set_motorcycle(self, length: Quantity, height: Quantity, torque: Quantity) -> None:
+        """A wheel ahead and one behind, for a dynamic body that leans into its turns."""
+        definition = VehicleDef()
+        lib.lks_make_motorcycle(*(units.raw(value, units.LENGTH, 32) for value in (length, height)),
+                                units.raw(torque, units.FORCE), byref(definition), sizeof(definition))
+        self._call("lks_set_vehicle", byref(definition))
+
+    def set_tank(self, length: Quantity, half_track: Quantity, height: Quantity, torque: Quantity) -> None:
+        """Three wheels a side on two tracks, for a dynamic body."""
+        definition = VehicleDef()
+        lib.lks_make_tank(*(units.raw(value, units.LENGTH, 32) for value in (length, half_track, height)),
+                          units.raw(torque, units.FORCE), byref(definition), sizeof(definition))
+        self._call("lks_set_vehicle", byref(definition))
+
     def drive(self, *, throttle: Quantity = 0, brake: Quantity = 0, handbrake: Quantity = 0, steer: Quantity = 0,
               clutch: Quantity = 0, gear: int = 1) -> None:
         controls = VehicleControls()

@@ -718,6 +718,8 @@ namespace Lockstone.Interop
         public long wheel_inertia;
         public uint cast;
         public uint mask;
+        public uint kind;
+        public int max_lean;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -752,7 +754,7 @@ namespace Lockstone.Interop
         public int gear;
         public long engine_speed;
         public uint wheel_count;
-        public uint reserved;
+        public int lean;
         public lks_wheel_view wheels_0;
         public lks_wheel_view wheels_1;
         public lks_wheel_view wheels_2;
@@ -1110,6 +1112,9 @@ namespace Lockstone.Interop
         public const int LKS_INERTIA_BITS = 28;
         public const uint LKS_WHEEL_RAY = 0;
         public const uint LKS_WHEEL_SPHERE = 1;
+        public const uint LKS_VEHICLE_CAR = 0;
+        public const uint LKS_VEHICLE_MOTORCYCLE = 1;
+        public const uint LKS_VEHICLE_TRACKED = 2;
         public const uint LKS_MAX_HISTORY_TICKS = 256;
         public const uint LOCKSTONE_GAME_ABI = 1;
         public const uint LOCKSTONE_GAME_MAX_PARTS = 8;
@@ -1724,6 +1729,12 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_make_car(int length, int half_track, int height, long torque, lks_vehicle_def* @out, UIntPtr size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_make_motorcycle(int length, int height, long torque, lks_vehicle_def* @out, UIntPtr size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_make_tank(int length, int half_track, int height, long torque, lks_vehicle_def* @out, UIntPtr size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_set_vehicle(IntPtr world, ulong chassis, lks_vehicle_def* def);

@@ -54,13 +54,42 @@ namespace Lockstone
         }
     }
 
+    /// <summary>The assets of a world, which keeps them: this may end before it.</summary>
+    public sealed unsafe class Assets : Handle
+    {
+        public Assets()
+        {
+            IntPtr made;
+            Call.Check(Native.lks_assets_create(&made));
+            handle = made;
+        }
+
+        protected override void Destroy(IntPtr assets)
+        {
+            Native.lks_assets_destroy(assets);
+        }
+
+        /// <summary>The convex hull of 4 … 65536 points; with a radius, all points within it of that hull.</summary>
+        public lks_shape AddHull(lks_i32x3[] points, int maxVertices = 64, int radius = 0)
+        {
+            ulong name;
+            fixed (lks_i32x3* first = points)
+            {
+                Call.Check(radius == 0
+                    ? Native.lks_assets_add_hull(Pointer, first, (UIntPtr)points.Length, maxVertices, &name)
+                    : Native.lks_assets_add_rounded_hull(Pointer, first, (UIntPtr)points.Length, maxVertices, radius, &name));
+            }
+            return Shape.Asset(Native.LKS_HULL, name);
+        }
+    }
+
     /// <summary>A world of bodies and joints, written by commands alone. A body or joint is named by a ulong.</summary>
     public sealed unsafe class World : Handle
     {
-        public World(lks_world_def def)
+        public World(lks_world_def def, Assets assets = null)
         {
             IntPtr made;
-            Call.Check(Native.lks_world_create(&def, IntPtr.Zero, &made));
+            Call.Check(Native.lks_world_create(&def, assets == null ? IntPtr.Zero : assets.Pointer, &made));
             handle = made;
         }
 

@@ -205,6 +205,9 @@ pub const LKS_DENSITY_BITS: i32 = 8;
 pub const LKS_INERTIA_BITS: i32 = 28;
 pub const LKS_WHEEL_RAY: u32 = 0;
 pub const LKS_WHEEL_SPHERE: u32 = 1;
+pub const LKS_VEHICLE_CAR: u32 = 0;
+pub const LKS_VEHICLE_MOTORCYCLE: u32 = 1;
+pub const LKS_VEHICLE_TRACKED: u32 = 2;
 pub const LKS_MAX_HISTORY_TICKS: u32 = 256;
 pub const LOCKSTONE_GAME_ABI: u32 = 1;
 pub const LOCKSTONE_GAME_MAX_PARTS: u32 = 8;
@@ -862,6 +865,8 @@ pub struct lks_vehicle_def {
     pub wheel_inertia: lks_inertia,
     pub cast: u32,
     pub mask: u32,
+    pub kind: u32,
+    pub max_lean: lks_angle,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -893,7 +898,7 @@ pub struct lks_vehicle_view {
     pub gear: i32,
     pub engine_speed: lks_angular_velocity,
     pub wheel_count: u32,
-    pub reserved: u32,
+    pub lean: lks_angle,
     pub wheels: [lks_wheel_view; 6],
 }
 #[repr(C)]
@@ -1220,6 +1225,8 @@ extern "C" {
     pub fn lks_to_decimal(raw: i64, bits: i32, out: *mut c_char, capacity: usize) -> lks_status;
     pub fn lks_vehicle_controls_init(controls: *mut lks_vehicle_controls, size: usize) -> lks_status;
     pub fn lks_make_car(length: lks_length, half_track: lks_length, height: lks_length, torque: lks_force, out: *mut lks_vehicle_def, size: usize) -> lks_status;
+    pub fn lks_make_motorcycle(length: lks_length, height: lks_length, torque: lks_force, out: *mut lks_vehicle_def, size: usize) -> lks_status;
+    pub fn lks_make_tank(length: lks_length, half_track: lks_length, height: lks_length, torque: lks_force, out: *mut lks_vehicle_def, size: usize) -> lks_status;
     pub fn lks_set_vehicle(world: *mut lks_world, chassis: lks_body, def: *const lks_vehicle_def) -> lks_status;
     pub fn lks_drive_vehicle(world: *mut lks_world, chassis: lks_body, controls: *const lks_vehicle_controls) -> lks_status;
     pub fn lks_vehicle_get(world: *const lks_world, chassis: lks_body, out: *mut lks_vehicle_view) -> lks_status;
