@@ -79,7 +79,7 @@ export class LogStage extends Stage {
     const wanted = Math.min(Math.max(tick, this.first), this.last);
     const from = this.nearest(wanted);
     this.goal = null;
-    if (wanted - Math.max(from.tick, this.tick <= wanted ? this.tick : 0) <= CHEAP_TICKS) return this.seek(wanted);
+    if (wanted - Math.max(from.tick, this.tick <= wanted ? this.tick : 0) < KEEP_EVERY) return this.seek(wanted);
     this.goal = wanted;
     if (this.tick > wanted || from.tick > this.tick) from.load();
     this.view.reset();
