@@ -107,7 +107,7 @@ ${text}
 - **Load**: from \`import\` until the engine can make a world. **Tick**: the median and the 99th percentile over the ticks, the first one
   included. **Top box moved**: after the last tick, against where it was put: an engine that lets the pyramid sink or slide has done less work.
 - **Not reached**: the core should have at most 350 kB packed. It is compiled for size as far as ticks do not suffer
-  ([how](../notes/webassembly.md)), and has 490 kB without vectors, 521 kB with them.
+  ([how](../notes/webassembly.md)), and has 490 kB without vectors, 523 kB with them.
 - Rapier's \`deterministic\` package and ours give the same bits on every machine; the other two do not promise it. Ours also equals its native builds.
 `;
 
