@@ -54,7 +54,7 @@ class WorldServer {
   std::string token_;
   std::string address_;
   std::vector<Viewer> viewers_;
-  std::vector<std::byte> state_;   ///< the message with the last saved state
+  std::vector<std::byte> state_;  ///< the message with the last saved state
   std::vector<std::byte> packet_;
 };
 
