@@ -46,7 +46,7 @@ build_page() {
 
 build() {
   build_page
-  build_targets=(lockstone)
+  build_targets=(lockstone lockstone_watched)
   build_preset release
 }
 

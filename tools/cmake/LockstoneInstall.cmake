@@ -5,13 +5,13 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lockstone)
 
 # Each component has targets of its own, so that the core is found without the libraries that net
 # and replay need.
-set(rooms core net replay view)
+set(rooms core net replay view watch)
 if(TARGET lockstone_tool)
   list(APPEND rooms tool)
 endif()
 foreach(room IN LISTS rooms)
   set(folder ${room})
-  if(room MATCHES "tool|view")
+  if(room MATCHES "tool|view|watch")
     set(folder tools/${room})
   endif()
   install(TARGETS lockstone_${room}

@@ -8,7 +8,7 @@ set(CMAKE_C_COMPILER emcc)
 set(CMAKE_AR emar)
 set(CMAKE_RANLIB emranlib)
 if(NOT DEFINED wasm_compile_flags)
-  set(wasm_compile_flags "-fexceptions -msimd128")
+  set(wasm_compile_flags "-fexceptions -msimd128 -fno-slp-vectorize")  # see web.cmake
   set(wasm_link_flags "-fexceptions -sNODERAWFS=1 -sEXIT_RUNTIME=1")
   # Loaded in one piece: the loader for pieces takes Node's fetch() for a browser's.
   string(APPEND wasm_link_flags " -sENVIRONMENT=node -sWASM_ASYNC_COMPILATION=0")

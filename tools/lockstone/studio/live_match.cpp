@@ -26,4 +26,16 @@ std::optional<std::string> origin_of(std::string_view address) {
   return origin.append(address);
 }
 
+std::optional<WatchedWorld> watched_world_of(std::string_view address) {
+  const std::size_t slash = address.rfind('/');
+  if (slash == std::string_view::npos || address.ends_with("//")) return std::nullopt;
+  const std::string_view token = address.substr(slash + 1);
+  const auto is_digit = [](char letter) {
+    return std::string_view("0123456789abcdef").find(letter) != std::string_view::npos;
+  };
+  const std::optional<std::string> origin = origin_of(address.substr(0, slash));
+  if (!origin || token.empty() || !std::ranges::all_of(token, is_digit)) return std::nullopt;
+  return WatchedWorld{*origin, std::string(token)};
+}
+
 }  // namespace lockstone::tool

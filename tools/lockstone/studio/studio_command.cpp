@@ -21,6 +21,7 @@ struct StudioOptions {
   std::vector<std::string> files;
   std::uint16_t port = 0;
   std::string live;
+  std::string world;
   std::string token;  // its file
   std::string name = "studio";
   bool plays = false;
@@ -47,15 +48,30 @@ bool take_live(const StudioOptions& options, std::optional<LiveMatch>& live, int
   return true;
 }
 
+/// Whether `--world` can be used; fills `world` where it is given.
+bool take_world(const StudioOptions& options, std::optional<WatchedWorld>& world, int& exit_code) {
+  if (options.world.empty()) return true;
+  world = watched_world_of(options.world);
+  if (world) return true;
+  complain(fmt::format("studio: --world {}: no address like ws://127.0.0.1:9000/0123456789abcdef",
+                       options.world));
+  exit_code = k_usage;
+  return false;
+}
+
 int studio(const Games& games, const StudioOptions& options) {
   int exit_code = k_ok;
-  std::optional<LiveMatch> live;
-  if (!take_live(options, live, exit_code)) return exit_code;
-  std::optional<ServedFiles> files = studio_files(games, options.files, live, exit_code);
+  Connections connections;
+  if (!take_live(options, connections.live, exit_code) ||
+      !take_world(options, connections.world, exit_code))
+    return exit_code;
+  std::optional<ServedFiles> files = studio_files(games, options.files, connections, exit_code);
   if (!files) return exit_code;
-  const std::string origin = live ? live->origin : std::string();
+  std::string origins;
+  if (connections.live) origins = connections.live->origin;
+  if (connections.world) origins += ' ' + connections.world->origin;
   const std::unique_ptr<PageServer> server =
-      PageServer::open(options.port, std::move(*files), origin);
+      PageServer::open(options.port, std::move(*files), origins);
   if (server == nullptr) return k_unavailable;
   fmt::print("{}\n", server->address());
   std::fflush(stdout);
@@ -80,6 +96,8 @@ void add_studio_command(CLI::App& app, Tool& tool) {
   command->add_option("--port", options->port, "0: any that is free")->capture_default_str();
   CLI::Option* live = command->add_option(
       "--live", options->live, "Watch the match of a `serve --ws`, like ws://127.0.0.1:9000/");
+  command->add_option("--world", options->world,
+                      "Watch the world of a game that shows it: the address of its WorldServer");
   command->add_flag("--play", options->plays, "Take a seat of that match")->needs(live);
   command->add_option("--token", options->token, "File with a token of `token issue` for it")
       ->needs(live);

@@ -57,6 +57,7 @@ class Collector {
     session_["logs"] = ordered_json::array();
     session_["desync"] = nullptr;
     session_["live"] = nullptr;
+    session_["world"] = nullptr;
   }
 
   [[nodiscard]] bool add_log(const std::string& path) {
@@ -113,6 +114,11 @@ class Collector {
     match["name"] = live.name;
     match["role"] = live.plays ? "player" : "spectator";
     add_view("live");
+  }
+
+  void add_world(const WatchedWorld& world) {
+    session_["world"] = {{"url", world.origin + '/'}, {"token", world.token}};
+    add_view("world");
   }
 
   void add_view(const char* name) { session_["views"].push_back(name); }
@@ -191,10 +197,11 @@ bool collect(Collector& collector, const std::vector<std::string>& paths) {
 }  // namespace
 
 std::optional<ServedFiles> studio_files(const Games& games, const std::vector<std::string>& paths,
-                                        const std::optional<LiveMatch>& live, int& exit_code) {
+                                        const Connections& connections, int& exit_code) {
   Collector collector(games, exit_code);
   if (!collect(collector, paths)) return std::nullopt;
-  if (live) collector.add_live(*live);
+  if (connections.live) collector.add_live(*connections.live);
+  if (connections.world) collector.add_world(*connections.world);
   return std::move(collector).finish();
 }
 

@@ -12,11 +12,11 @@
 namespace lockstone::tool {
 
 /// The files for a session: no path opens the testbed, one .lks the log, two of them or one .tar
-/// the desync; `live` the match. Nothing, with a complaint and `exit_code`, where they cannot be
+/// the desync; `connections` a match and a game that run. Nothing, with a complaint and `exit_code`, where they cannot be
 /// shown.
 [[nodiscard]] std::optional<ServedFiles> studio_files(const Games& games,
                                                       const std::vector<std::string>& paths,
-                                                      const std::optional<LiveMatch>& live,
+                                                      const Connections& connections,
                                                       int& exit_code);
 
 }  // namespace lockstone::tool

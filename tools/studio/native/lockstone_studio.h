@@ -87,6 +87,24 @@ enum {
 LKS_API lks_status lks_studio_compare(const lks_world* a, const lks_world* b, lks_studio_list* list,
                                       uint32_t* differing);
 
+/* Stage times -----------------------------------------------------------------------------------
+ */
+
+enum { LKS_STUDIO_STAGES = 10 }; /* of a tick: StepStage of lockstone/profile.h */
+
+/* Begins to take the times of the world's stages by the page's clock. They are no part of its state. */
+LKS_API lks_status lks_studio_watch_stages(lks_world* world);
+
+/* Microseconds that each stage took, summed over all steps since then. */
+LKS_API lks_status lks_studio_stage_times(const lks_world* world, double* sums);
+
+/* Games that run elsewhere ----------------------------------------------------------------------
+ */
+
+/* An empty world that takes the states of the one that a WorldServer (lockstone/watch/world_server.h)
+ * describes by the message. */
+LKS_API lks_status lks_studio_described_world(const void* bytes, size_t count, lks_world** out);
+
 /* Logs ------------------------------------------------------------------------------------------
  */
 

@@ -10,6 +10,9 @@ interface StudioFunctions {
   lks_studio_act(world: number, action: number): number;
   lks_studio_draw(world: number, wanted: number, lists: number): number;
   lks_studio_measure(world: number, out: number): number;
+  lks_studio_described_world(bytes: number, count: number, out: number): number;
+  lks_studio_watch_stages(world: number): number;
+  lks_studio_stage_times(world: number, sums: number): number;
   lks_studio_compare(a: number, b: number, list: number, differing: number): number;
   lks_studio_log_open(bytes: number, count: number, out: number): number;
   lks_studio_log_close(log: number): void;
@@ -41,6 +44,9 @@ export type Lists = { [name in keyof typeof STRIDE]: Float32Array };
 /** States of the list `bodies`. */
 export const State = { fixed: 0, kinematic: 1, awake: 2, asleep: 3, trigger: 4 } as const;
 
+/** Stages of a tick: StepStage of lockstone/profile.h. */
+export const STAGES = ["find_pairs", "collide", "prepare", "solve", "store", "move", "continuous", "refresh", "events", "sleep"] as const;
+
 const FIGURES = ["bodies", "awake", "asleep", "contacts", "points", "islands", "joints"] as const;
 const LIST_NAMES = ["bodies", "bounds", "masses", "contacts", "joints"] as const;
 
@@ -56,7 +62,8 @@ export class Engine {
   /** `crypto`: for matches that run; without it the module can do all but connect. */
   static async load(wasm: string | URL, crypto?: Imported): Promise<Engine> {
     const never = () => new URL(wasm);
-    const more: Record<string, Imported> = crypto ? { lockstone_crypto: crypto } : {};
+    const studio: Imported = () => ({ now: () => performance.now() });
+    const more: Record<string, Imported> = { lockstone_studio: studio, ...(crypto ? { lockstone_crypto: crypto } : {}) };
     return new Engine(await loadFrom({ simd: true, wasm }, never, never, more));
   }
 
@@ -79,6 +86,19 @@ export class Engine {
     return new World(this.lockstone, {}, address);
   }
 
+  /** An empty world that takes the states of a game's. */
+  describedWorld(description: Uint8Array): World {
+    const { heap } = this;
+    const bytes = heap.allocate(description.length);
+    try {
+      heap.u8.set(description, bytes);
+      heap.check(this.f.lks_studio_described_world(bytes, description.length, heap.output));
+      return this.world(heap.getWord(heap.output));
+    } finally {
+      heap.f.free(bytes);
+    }
+  }
+
   /** Lists of numbers in the module's memory, until the next call. */
   draw(world: World, wanted: number): Lists {
     const { heap } = this;
@@ -93,6 +113,19 @@ export class Engine {
     const [kinetic, potential] = new Float64Array(heap.f.memory.buffer, heap.output, 2);
     const counts = FIGURES.map((name, i) => [name, heap.getWord(heap.output + 16 + 4 * i)]);
     return { kinetic, potential, ...Object.fromEntries(counts) } as Figures;
+  }
+
+  /** Begins to take stage times of a world. */
+  watchStages(world: World): void {
+    this.heap.check(this.f.lks_studio_watch_stages(world.address));
+  }
+
+  /** Of each stage, summed over all steps, ms. */
+  stageTimes(world: World): Float64Array {
+    const { heap } = this;
+    const room = heap.output; // has room for the figures of a body, which are more
+    heap.check(this.f.lks_studio_stage_times(world.address, room));
+    return new Float64Array(heap.f.memory.buffer, room, STAGES.length).map((us) => us / 1000);
   }
 
   /** Four numbers a row: flags, m, m/s, degrees. */

@@ -13,6 +13,7 @@ import { Selection } from "./selection.js";
 import { showSection } from "./show.js";
 
 const STATE_EVERY = 15; // ticks: a scrub computes fewer
+const WORK_MS = 40; // of a frame, to compute towards a tick
 const FACTS = ["game", "build", "match", "seed", "length", "players", "end"] as const;
 
 export class LogView implements Mode {
@@ -51,15 +52,21 @@ export class LogView implements Mode {
   }
 
   step(): void {
+    this.lead.goal = null;
     this.lead.step();
   }
 
   seek(tick: number): void {
-    this.lead.seek(tick);
+    this.lead.approach(tick);
+  }
+
+  get goal(): number | null {
+    return this.lead.goal;
   }
 
   refresh(): void {
     const { lead, log } = this;
+    lead.work(WORK_MS);
     this.timeline.draw(lead.tick, this.known);
     this.selection.refresh(lead.world, this.picture.target);
     this.tellProof();

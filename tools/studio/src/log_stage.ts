@@ -38,6 +38,8 @@ export class LogStage extends Stage {
   readonly last: number;
   readonly proofs: Proofs;
   readonly history = new History(KEEP_EVERY, MOST_BYTES);
+  /** The tick that is being approached; null: it is reached. */
+  goal: number | null = null;
   private readonly states: States;
   /** A state that is not computed from the log's beginning: of another build, or with a fault. */
   private anchor: { tick: number; state: Uint8Array } | null = null;
@@ -70,6 +72,25 @@ export class LogStage extends Stage {
   cheapTick(tick: number): number {
     const near = this.nearest(Math.min(Math.max(tick, this.first), this.last)).tick;
     return tick - near > CHEAP_TICKS ? near : tick;
+  }
+
+  /** Goes to a tick, or where that takes long, to the nearest known state before it: `work` goes on. */
+  approach(tick: number): void {
+    const wanted = Math.min(Math.max(tick, this.first), this.last);
+    const from = this.nearest(wanted);
+    this.goal = null;
+    if (wanted - Math.max(from.tick, this.tick <= wanted ? this.tick : 0) < KEEP_EVERY) return this.seek(wanted);
+    this.goal = wanted;
+    if (this.tick > wanted || from.tick > this.tick) from.load();
+    this.view.reset();
+  }
+
+  /** Computes towards the goal for a part of a frame. */
+  work(ms: number): void {
+    if (this.goal === null) return;
+    for (const began = performance.now(); this.tick < this.goal && performance.now() - began < ms;) this.advance();
+    this.view.reset();
+    if (this.tick >= this.goal) this.goal = null;
   }
 
   save(): Uint8Array {

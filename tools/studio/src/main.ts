@@ -10,17 +10,19 @@ import { LogView } from "./log.js";
 import { seenOf } from "./link.js";
 import type { Mode } from "./mode.js";
 import { Picture } from "./picture.js";
+import { Sequence } from "./sequence.js";
 import { type Session, bytesOf, sessionOf } from "./session.js";
 import { Testbed } from "./testbed.js";
 import { Transport } from "./transport.js";
+import { WorldView } from "./world_view.js";
 
 const KEYS: [string, string][] = [
   ["space", "play or pause"], ["← →", "one tick back or on"], ["shift ← →", "60 ticks"], ["R", "back by 600 ticks"], ["Home", "to the beginning"],
   ["1 … 6", "testbed: contacts, joints, bounds, centres of mass, sleeping, triggers"], ["C", "testbed: colour by body, island, activity"],
   ["F B U X", "testbed: throw, drop, push up, remove"], ["N", "log, desync: to the first difference"],
-  ["P", "save a picture"], ["V", "begin a film, end and save it"], ["L", "copy a link"], ["T", "light or dark"],
+  ["P", "save a picture"], ["V", "begin a film, end and save it"], ["I", "begin a picture of every tick, end and save them"], ["L", "copy a link"], ["T", "light or dark"],
 ];
-const VIEWS = { testbed: "Testbed", log: "Log", desync: "Desync", live: "Live" } as const;
+const VIEWS = { testbed: "Testbed", log: "Log", desync: "Desync", live: "Live", world: "World" } as const;
 type ViewName = keyof typeof VIEWS;
 
 // Events after which the picture may be another one.
@@ -35,6 +37,7 @@ const picture = new Picture(byId<HTMLCanvasElement>("picture"));
 const transport = new Transport(() => mode);
 new Hand(picture, () => mode);
 const clip = new Clip(picture.canvas, byId("clip"), () => mode?.lead.tick ?? 0);
+const sequence = new Sequence(picture.canvas, byId("sequence"));
 
 function tell(text: string): void {
   byId("message").hidden = text === "";
@@ -69,7 +72,7 @@ function press(event: KeyboardEvent): boolean {
   const deeds: Record<string, () => void> = {
     " ": () => transport.play(!transport.playing), ArrowRight: () => (shiftKey ? transport.move(60) : transport.stepOnce()),
     ArrowLeft: () => transport.move(shiftKey ? -60 : -1), Home: () => transport.seek(0), r: () => transport.move(-600),
-    p: savePicture, v: () => clip.toggle(), l: () => void shareLink(), t: toggleTheme, "?": () => byId<HTMLDialogElement>("keys").showModal(),
+    p: savePicture, v: () => clip.toggle(), i: () => sequence.toggle(), l: () => void shareLink(), t: toggleTheme, "?": () => byId<HTMLDialogElement>("keys").showModal(),
   };
   const deed = deeds[key.length === 1 ? key.toLowerCase() : key];
   if (deed) deed();
@@ -88,6 +91,8 @@ async function open(engine: Engine, session: Session, view: ViewName): Promise<v
     mode = new LogView(engine, picture, await bytesOf("log/0"), (tick) => transport.seek(tick));
   } else if (view === "live") {
     mode = await LiveView.open(engine, picture, session.live!);
+  } else if (view === "world") {
+    mode = await WorldView.open(engine, picture, session.world!);
   } else {
     mode = await DesyncView.open(engine, picture, session, (tick) => transport.seek(tick));
   }
@@ -124,16 +129,18 @@ function takeFiles(): void {
 
 function frame(now: number): void {
   requestAnimationFrame(frame);
-  transport.advance(now);
+  if (!sequence.runs) transport.advance(now);
+  else if (sequence.ready) transport.advanceOnce();
   if (!mode) return;
-  const { fraction } = mode;
-  if (fraction === undefined && !transport.playing && !clip.runs && now > awakeUntil && now < drawnAt + IDLE_MS) return;
+  const { fraction, goal } = mode;
+  if (fraction === undefined && !goal && !transport.playing && !clip.runs && !sequence.runs && now > awakeUntil && now < drawnAt + IDLE_MS) return;
   drawnAt = now;
   const pulled = mode instanceof Testbed ? mode.pulled : null;
-  picture.draw(mode.dioramas, fraction ?? transport.fraction, mode.shown, pulled);
+  picture.draw(mode.dioramas, fraction ?? (sequence.runs ? 1 : transport.fraction), mode.shown, pulled);
+  sequence.take(mode.lead.tick);
   mode.refresh();
   transport.refresh();
-  byId("tick-text").textContent = `tick ${mode.lead.tick}`;
+  byId("tick-text").textContent = `tick ${mode.lead.tick}${mode.goal ? ` … ${mode.goal}` : ""}`;
   byId("hash-text").textContent = mode.lead.hash;
 }
 

@@ -17,6 +17,8 @@ export interface Mode {
   readonly shown: ReadonlySet<string>;
   /** Of the way to the last tick, where the view moves on by itself. */
   readonly fraction?: number;
+  /** The tick that is being computed, frame by frame; null: it is reached. */
+  readonly goal?: number | null;
   step(): void;
   seek(tick: number): void;
   /** Once a frame, after the picture. */

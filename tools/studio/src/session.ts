@@ -29,12 +29,20 @@ export interface Live {
   role: "spectator" | "player";
 }
 
+/** A game that shows its world. */
+export interface WatchedWorld {
+  /** "ws://127.0.0.1:9000/" */
+  url: string;
+  token: string;
+}
+
 export interface Session {
   views: string[];
   /** Names of the logs: one, or two. */
   logs: string[];
   desync: Desync | null;
   live: Live | null;
+  world: WatchedWorld | null;
 }
 
 async function fetched(path: string): Promise<Response> {

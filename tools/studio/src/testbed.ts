@@ -14,6 +14,7 @@ import { COLOURINGS, type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
 import { Selection } from "./selection.js";
 import { SWITCHES, showSection } from "./show.js";
+import { StageChart } from "./stage_chart.js";
 import { TestbedStage } from "./testbed_stage.js";
 
 const SHAPES = { box: c.LKS_BOX, ball: c.LKS_SPHERE, capsule: c.LKS_CAPSULE, cylinder: c.LKS_CYLINDER, cone: c.LKS_CONE, club: c.LKS_TAPERED_CAPSULE, die: c.LKS_ROUNDED_BOX } as const;
@@ -40,6 +41,7 @@ export class Testbed implements Mode {
     energy: new Chart("Energy", "J", "chart-energy"), contacts: new Chart("Contacts awake", "", "chart-contacts"),
     islands: new Chart("Islands", "", "chart-islands"), ms: new Chart("Tick time", "ms", "chart-ms"),
   };
+  private readonly stages = new StageChart();
   private readonly counts = new Facts("count", COUNTS);
   private readonly told = make("p", { id: "told" });
   private colour: Colouring;
@@ -71,6 +73,7 @@ export class Testbed implements Mode {
   refresh(): void {
     const { lead, charts } = this;
     for (const chart of Object.values(charts)) chart.draw(lead.tick, lead.last);
+    this.stages.draw(lead.tick, lead.last);
     const figures = lead.figures();
     for (const name of COUNTS) this.counts.set(name, String(figures[name]));
     this.selection.refresh(lead.world, this.picture.target);
@@ -178,7 +181,9 @@ export class Testbed implements Mode {
     charts.energy.series.set(lead.tick, kinetic + potential);
     charts.contacts.series.set(lead.tick, contacts);
     charts.islands.series.set(lead.tick, islands);
-    if (lead.stepMs > 0) charts.ms.series.set(lead.tick, lead.stepMs);
+    if (lead.stepMs === 0) return;
+    charts.ms.series.set(lead.tick, lead.stepMs);
+    this.stages.set(lead.tick, lead.stageMs);
   }
 
   private pullOf({ body, point, to }: Held): Action {
@@ -259,7 +264,7 @@ export class Testbed implements Mode {
           button("Push up", "Push the chosen body up (U)", () => this.pushChosen(), "push"),
           button("Remove", "Remove the chosen body (X)", () => this.removeChosen(), "remove")), this.told),
       showSection(this.shown, this.colour, (colour) => (this.colour = colour), NAMES),
-      section("Figures", make("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.element)), this.counts.element),
+      section("Figures", make("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.element)), this.stages.element, this.counts.element),
       this.selection.element);
     this.tellScene();
   }

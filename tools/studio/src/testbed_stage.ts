@@ -16,14 +16,18 @@ export class TestbedStage extends Stage {
   readonly journal = new Map<number, Action[]>();
   /** Why the last action was refused; empty where it was not. */
   refusal = "";
-  /** ms of the last step. */
+  /** ms of the last step, and of its stages in the order of STAGES. */
   stepMs = 0;
+  stageMs: Float64Array;
+  private stageSums: Float64Array;
   private readonly states: States;
   private readonly history = new History(KEEP_EVERY);
 
   /** A built-in scene by its name, or one of a person's own. */
   constructor(engine: Engine, readonly name: string, readonly seed: bigint, readonly own?: OwnScene) {
     super(engine, own ? own.makeWorld(engine) : engine.scene(name, seed));
+    engine.watchStages(this.world);
+    this.stageSums = this.stageMs = engine.stageTimes(this.world);
     this.states = new States(this.world);
     this.keep();
   }
@@ -51,6 +55,9 @@ export class TestbedStage extends Stage {
     const began = performance.now();
     this.world.step();
     this.stepMs = performance.now() - began;
+    const sums = this.engine.stageTimes(this.world);
+    this.stageMs = sums.map((sum, stage) => sum - this.stageSums[stage]!);
+    this.stageSums = sums;
     this.last = Math.max(this.last, tick + 1);
     this.keep();
   }

@@ -48,6 +48,15 @@ export class Transport {
     this.mode()?.seek(tick);
   }
 
+  /** Plays one tick, however long ago the last one was. */
+  advanceOnce(): void {
+    const mode = this.mode();
+    this.last = performance.now();
+    if (!mode || !this.playing) return;
+    if (mode.lead.canStep) mode.step();
+    else this.play(false);
+  }
+
   /** Plays the ticks that are due. */
   advance(now: number): void {
     const mode = this.mode();
@@ -66,8 +75,9 @@ export class Transport {
   }
 
   refresh(): void {
-    const lead = this.mode()?.lead;
-    if (!lead) return;
-    Object.assign(this.slider, { min: String(lead.first), max: String(Math.max(lead.last, lead.tick)), value: String(lead.tick) });
+    const mode = this.mode();
+    if (!mode) return;
+    const { lead } = mode;
+    Object.assign(this.slider, { min: String(lead.first), max: String(Math.max(lead.last, lead.tick)), value: String(mode.goal ?? lead.tick) });
   }
 }

@@ -1,4 +1,5 @@
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
@@ -125,6 +126,53 @@ test("a scene of one's own is played, a wrong one is named, and a clip is saved"
   await drop({ ...own, bodies: [{ ...own.bodies[0], positon: [0, 0, 0] }] });
   await page.waitForFunction(() => document.getElementById("told").textContent === 'bodies[0]: there is no field "positon"');
   assert.ok((await state()).tick > 60);
+})));
+
+test("the stages of a tick have times, and change no hash", { skip }, () => withStudio([], (address) => withPage(`${address}#scene=wall&tick=20`, async (page) => {
+  const { frames, pause, state } = person(page);
+  await page.waitForFunction(() => document.getElementById("tick-text").textContent === "tick 20");
+  await pause();
+  assert.equal((await state()).hash, golden.wall.chain[1]);
+  const time = async (stage) => Number(await page.textContent(`#stage-${stage}`));
+  const times = Object.fromEntries(await Promise.all(["pairs", "collide", "solve", "move", "events"].map(async (stage) => [stage, await time(stage)])));
+  assert.ok(times.solve > 0 && times.collide > 0, JSON.stringify(times));
+  const whole = Number.parseFloat(await page.textContent("#chart-ms"));
+  const sum = Object.values(times).reduce((all, ms) => all + ms, 0);
+  assert.ok(whole > 0 && sum < 1000, `${sum} ms in stages, ${whole} ms the last tick`);
+  await frames();
+  // The solver's colour fills a part of the chart.
+  const colored = await page.evaluate(() => {
+    const canvas = document.getElementById("chart-stages");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) if (data[i] > 190 && data[i + 1] > 130 && data[i + 2] < 100 && data[i + 3] > 200) ++count;
+    return count;
+  });
+  assert.ok(colored > 10, `${colored} pixels`);
+})));
+
+test("a picture of every tick is saved, none left out", { skip }, () => withStudio([], (address) => withPage(`${address}#scene=wall&tick=20`, async (page) => {
+  const { press } = person(page);
+  await page.waitForFunction(() => document.getElementById("tick-text").textContent === "tick 20");
+  await page.focus("#picture");
+  await press("i");
+  assert.equal(await page.getAttribute("#sequence", "aria-pressed"), "true");
+  await press("Space");
+  await page.waitForFunction(() => Number(document.getElementById("tick-text").textContent.split(" ")[1]) >= 30);
+  const [download] = await Promise.all([page.waitForEvent("download"), press("i")]);
+  const archive = join(scratch, "sequence.zip");
+  await download.saveAs(archive);
+  const program = "import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; [print(n, z.read(n).hex()) for n in z.namelist()]";
+  const files = execFileSync("python3", ["-c", program, archive], { encoding: "utf8", maxBuffer: 1 << 28 }).trim().split("\n").map((line) => line.split(" "));
+  assert.ok(files.length >= 10 && download.suggestedFilename() === `lockstone-${files.length}-ticks.zip`);
+  assert.deepEqual(files.map(([name]) => name), files.map((_, i) => `tick-${String(20 + i).padStart(6, "0")}.png`));
+  const box = await page.evaluate(() => [document.getElementById("picture").width, document.getElementById("picture").height]);
+  for (const [name, hex] of files) {
+    const png = Buffer.from(hex, "hex");
+    assert.equal(png.subarray(1, 4).toString(), "PNG", name);
+    assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], box);
+  }
+  assert.ok(new Set(files.map(([, hex]) => hex)).size > files.length / 2, "the wall moves");
 })));
 
 test("the page fits a phone", { skip }, () => withStudio([], (address) => withPage(address, async (page) => {

@@ -106,8 +106,8 @@ ${text}
   a bundler. Rapier's \`compat\` packages hold their WebAssembly as text; Jolt's is the package's \`jolt-physics/wasm\`. Gzip at its highest level.
 - **Load**: from \`import\` until the engine can make a world. **Tick**: the median and the 99th percentile over the ticks, the first one
   included. **Top box moved**: after the last tick, against where it was put: an engine that lets the pyramid sink or slide has done less work.
-- **Not reached**: the core should have at most 350 kB packed. Compiled for size by Emscripten 3.1.6 (\`-Os -finline-functions\`) it has 477 kB, but
-  free rotation then gives other bits than natively, so it is compiled for speed.
+- **Not reached**: the core should have at most 350 kB packed. It is compiled for size as far as ticks do not suffer
+  ([how](../notes/webassembly.md)), and has 490 kB without vectors, 523 kB with them.
 - Rapier's \`deterministic\` package and ours give the same bits on every machine; the other two do not promise it. Ours also equals its native builds.
 `;
 
