@@ -88,6 +88,20 @@ TEST(HeldFeatures, CostNoMoreOverlapThanTheirMargins) {
   }
 }
 
+// A manifold may be kept while nothing moves, or found again from its own features.
+TEST(HeldFeatures, OfAManifoldGiveThatManifold) {
+  Dice dice;
+  for (int round = 0; round < 20000; ++round) {
+    Scene scene = touching_boxes(dice);
+    const HeldFeatures before = held_by(scene.collide());
+    tremble(dice, 2e-3, scene);
+    const Manifold found = collide_holding(scene, before);
+    if (found.count == 0) continue;
+    const HeldFeatures held = held_by(found);
+    EXPECT_EQ(held, held_by(collide_holding(scene, held))) << describe(scene);
+  }
+}
+
 TEST(HeldFeatures, GiveTheSameManifoldInEitherOrder) {
   Dice dice;
   for (int round = 0; round < 1000; ++round) {

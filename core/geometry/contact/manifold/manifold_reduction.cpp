@@ -102,8 +102,9 @@ void take_extreme(Selection& selection) {
   selection.take(best);
 }
 
-/// The widest support is worth nothing without the deepest vertex.
-void include_deepest(Selection& selection) {
+/// The widest support is worth nothing without the deepest vertex: it replaces the nearest of the
+/// four, if they are higher by more than `much`.
+void include_deepest(Selection& selection, Fine much) {
   LKS_ASSERT(selection.count > 0 && selection.count <= 4);
   int deepest = 0;
   for (int i = 1; i < selection.size(); ++i) {
@@ -114,7 +115,7 @@ void include_deepest(Selection& selection) {
     taken_depth =
         std::min(taken_depth, selection.height(selection.taken[static_cast<std::size_t>(i)]));
   }
-  if (selection.height(deepest) >= taken_depth - k_deeper) return;
+  if (selection.height(deepest) >= taken_depth - much) return;
   if (selection.count < 4) return selection.take(deepest);
   int nearest = 0;
   for (int i = 1; i < 4; ++i) {
@@ -137,7 +138,7 @@ void select_four(Selection& selection) {
     const FlatTriangle triangle{first, selection.chosen(1), selection.chosen(2)};
     selection.take_best([&](const Flat& p) { return triangle.area_added_by(p); });
   }
-  include_deepest(selection);
+  include_deepest(selection, k_deeper);
   LKS_ASSERT(selection.count > 0 && selection.count <= 4);
 }
 
@@ -151,24 +152,6 @@ bool take_held(Selection& selection, const HeldFeatures& held) {
   selection.taken = {-1, -1, -1, -1};
   selection.count = 0;
   return false;
-}
-
-/// The deepest vertex that is left out, if it touches, in place of the highest of the four, if it
-/// is clearly deeper: so those remain that carry something.
-void include_deeper(Selection& selection) {
-  LKS_ASSERT(selection.count == 4);
-  int deepest = -1;
-  for (int i = 0; i < selection.size(); ++i)
-    if (!selection.has(i) && (deepest < 0 || selection.height(i) < selection.height(deepest)))
-      deepest = i;
-  LKS_ASSERT(deepest >= 0);
-  std::size_t highest = 0;
-  for (std::size_t i = 1; i < 4; ++i)
-    if (selection.height(selection.taken[i]) > selection.height(selection.taken[highest]))
-      highest = i;
-  const Fine height = selection.height(deepest);
-  if (height <= 0 && height < selection.height(selection.taken[highest]) - k_held_deeper)
-    selection.taken[highest] = deepest;
 }
 
 /// The lowest of repeated features first.
@@ -203,7 +186,7 @@ int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift, const HeldFe
   if (polygon.size() <= 4) return static_cast<int>(polygon.size());
   Selection selection(polygon, shift);
   if (take_held(selection, held))
-    include_deeper(selection);
+    include_deepest(selection, k_much_deeper);
   else
     select_four(selection);
   LKS_ASSERT(selection.count > 0 && selection.count <= 4);

@@ -45,8 +45,7 @@ inline constexpr std::size_t k_most_reduced = 272;
 [[nodiscard]] int reduce_to_four(std::span<FaceVertex> polygon, int shift);
 
 /// The same for vertices that ascend by feature and have one each. Where four of them have the
-/// features that were held, these stay; one that touches replaces the highest of them if it is more
-/// than k_held_deeper deeper.
+/// features that were held, these stay, but for one that is more than k_much_deeper deeper.
 [[nodiscard]] int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift,
                                         const HeldFeatures& held);
 
@@ -54,6 +53,6 @@ inline constexpr std::size_t k_most_reduced = 272;
 inline constexpr Fine k_deeper = Fine{1} << (k_fine_bits - 17);
 
 /// 0.49 mm: less, and the four of a loaded polygon of more alternate.
-inline constexpr Fine k_held_deeper = Fine{1} << (k_fine_bits - 11);
+inline constexpr Fine k_much_deeper = Fine{1} << (k_fine_bits - 11);
 
 }  // namespace lockstone::geometry
