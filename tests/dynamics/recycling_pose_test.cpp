@@ -70,6 +70,23 @@ TEST(RecyclingPose, IsNearWithinTheFinestDistance) {
 }
 
 // Large stacks, which are rebalanced, follow more closely.
+// Also of places half way between two steps of lengths.
+TEST(RecyclingPose, LiesAlikeFromTheBodyAnywhereAndMirrored) {
+  Dice dice;
+  const auto way = [](std::int64_t raw) {
+    BodyRecord body;
+    body.position.x = Position::from_raw(raw);
+    set_recycling_pose(body);
+    return recycling_position(body).x.raw - raw;
+  };
+  for (int round = 0; round < 1000; ++round) {
+    const std::int64_t half_steps = dice.between(-100'000, 100'000) * (std::int64_t{1} << 11);
+    const std::int64_t east = dice.between(-900'000, 900'000) * Position::from_integer(1).raw;
+    EXPECT_EQ(way(half_steps), way(half_steps + east));
+    EXPECT_EQ(way(half_steps), -way(-half_steps));
+  }
+}
+
 TEST(RecyclingPose, IsNearWithinAsMuchAsAsked) {
   Dice dice;
   for (const int delta : {k_fine_delta, k_coarse_delta}) {

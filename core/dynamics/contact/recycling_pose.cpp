@@ -25,6 +25,15 @@ std::int64_t way_of(const BodyRecord& body, int axis) {
   return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + remainder;
 }
 
+// A position in steps of Length: to nearest, ties to even. So it is the same, but for a translation,
+// wherever a world is moved by whole metres, and mirrored in a mirror image.
+std::int64_t steps_of(Position position) {
+  constexpr std::int64_t k_half = std::int64_t{1} << (k_place_shift - 1);
+  const std::int64_t below = position.raw >> k_place_shift;
+  const std::int64_t rest = position.raw - below * (1 << k_place_shift);
+  return rest > k_half || (rest == k_half && below % 2 != 0) ? below + 1 : below;
+}
+
 // A state in which somebody flipped a bit may have its recycling pose anywhere, for a tick.
 std::int64_t within_bits(std::int64_t x, int bits) {
   const std::int64_t most = std::int64_t{1} << bits;
@@ -55,7 +64,7 @@ bool is_near_recycling_pose(const BodyRecord& body, int delta) {
 
 void set_recycling_pose(BodyRecord& body) {
   for (int i = 0; i < 3; ++i) {
-    const std::int64_t steps = raw::round_shift(body.position[i].raw, k_place_shift);
+    const std::int64_t steps = steps_of(body.position[i]);
     body.recycling_place[i].raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
   }
   body.recycling_orientation = body.orientation;

@@ -17,10 +17,12 @@ namespace lockstone {
 
 namespace {
 
-// Of two boxes that had a contact a tick ago; other pairs hold nothing.
+// Of two boxes that touched a tick ago; other pairs hold nothing. Which of those that are apart
+// have a contact follows from how bounds are rounded, and must not change what comes.
 HeldFeatures held_features(std::span<const ContactRecord> before, const Shape& a, const Shape& b) {
   HeldFeatures held;
-  if (before.size() != 1 || a.kind != ShapeKind::box || b.kind != ShapeKind::box) return held;
+  if (before.size() != 1 || !before.front().is_touching()) return held;
+  if (a.kind != ShapeKind::box || b.kind != ShapeKind::box) return held;
   LKS_ASSERT(before.front().count <= held.features.size());
   held.count = before.front().count;
   for (std::size_t i = 0; i < before.front().count; ++i)
