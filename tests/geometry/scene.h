@@ -149,7 +149,7 @@ inline void expect_flipped(const Manifold& m, const Manifold& f) {
 /// The features that a pair with this manifold holds a tick later.
 inline HeldFeatures held_by(const Manifold& manifold) {
   HeldFeatures held;
-  held.count = manifold.count;
+  held.count = static_cast<std::uint16_t>(manifold.count);
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i)
     held.features[i] = manifold.points[i].feature;
   return held;

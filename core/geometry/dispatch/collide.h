@@ -44,8 +44,8 @@ void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offse
 /// As above, with the features of the pair's points a tick ago, in the same order of A and B. Of
 /// two boxes, edges that met then do so until a face or other edges overlap less, by a tenth and
 /// 0.5 mm; the face whose plane the contact had then keeps it until the other box's is better, by
-/// 1/32 and 0.25 mm; and of more than four points those that were taken are, until another is 0.5 mm
-/// deeper.
+/// 1/32 and 0.25 mm; and four of more points that were taken are taken again, unless another is 61
+/// µm deeper: then it replaces one that carried nothing.
 void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
              const HeldFeatures& held, Manifold& out);
 

@@ -38,18 +38,26 @@ struct Manifold {
   std::array<ManifoldPoint, k_max_manifold_points> points{};
 };
 
-/// The features of a pair's points a tick ago, if it had one manifold: for choices that must not
-/// change back and forth while bodies come to rest.
+/// The features of a pair's points a tick ago, if it touched with one manifold: for choices that
+/// must not change back and forth while bodies come to rest.
 struct HeldFeatures {
   std::array<std::uint32_t, k_max_manifold_points> features{};
-  int count = 0;
+  std::uint16_t count = 0;
+  std::uint16_t loaded = 0;  ///< bit n: an impulse pushed at point n
 
   friend bool operator==(const HeldFeatures&, const HeldFeatures&) = default;
+
   [[nodiscard]] std::uint32_t first() const { return count == 0 ? 0 : features[0]; }
-  [[nodiscard]] bool has(std::uint32_t feature) const {
-    for (int i = 0; i < count; ++i)
-      if (features[static_cast<std::size_t>(i)] == feature) return true;
-    return false;
+  /// Its place; `count` where there is none.
+  [[nodiscard]] unsigned find(std::uint32_t feature) const {
+    unsigned place = 0;
+    while (place < count && features[place] != feature)
+      ++place;
+    return place;
+  }
+  [[nodiscard]] bool has(std::uint32_t feature) const { return find(feature) < count; }
+  [[nodiscard]] bool is_loaded(std::uint32_t feature) const {
+    return (loaded >> find(feature) & 1) != 0;
   }
 };
 

@@ -102,9 +102,28 @@ void take_extreme(Selection& selection) {
   selection.take(best);
 }
 
-/// The widest support is worth nothing without the deepest vertex: it replaces the nearest of the
-/// four, if they are higher by more than `much`.
-void include_deepest(Selection& selection, Fine much) {
+/// Of the four, the one whose place another may take: the nearest of those that no impulse pushed
+/// at a tick ago, else the nearest.
+std::size_t least_needed(const Selection& selection, int other, const HeldFeatures& held) {
+  LKS_ASSERT(selection.count == 4);
+  const auto is_loaded = [&](std::size_t i) {
+    return held.is_loaded(selection.polygon[static_cast<std::size_t>(selection.taken[i])].feature);
+  };
+  const auto distance = [&](std::size_t i) {
+    return square(selection.at(selection.taken[i]) - selection.at(other));
+  };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    const bool is_freer = !is_loaded(i) && is_loaded(best);
+    const bool is_alike = is_loaded(i) == is_loaded(best);
+    if (is_freer || (is_alike && distance(i) < distance(best))) best = i;
+  }
+  return best;
+}
+
+/// The widest support is worth nothing without the deepest vertex: it replaces one of the four, if
+/// they are higher by more than `much`.
+void include_deepest(Selection& selection, Fine much, const HeldFeatures& held) {
   LKS_ASSERT(selection.count > 0 && selection.count <= 4);
   int deepest = 0;
   for (int i = 1; i < selection.size(); ++i) {
@@ -117,12 +136,7 @@ void include_deepest(Selection& selection, Fine much) {
   }
   if (selection.height(deepest) >= taken_depth - much) return;
   if (selection.count < 4) return selection.take(deepest);
-  int nearest = 0;
-  for (int i = 1; i < 4; ++i) {
-    const Flat p = selection.at(deepest);
-    if (square(selection.chosen(i) - p) < square(selection.chosen(nearest) - p)) nearest = i;
-  }
-  selection.taken[static_cast<std::size_t>(nearest)] = deepest;
+  selection.taken[least_needed(selection, deepest, held)] = deepest;
 }
 
 void select_four(Selection& selection) {
@@ -138,7 +152,7 @@ void select_four(Selection& selection) {
     const FlatTriangle triangle{first, selection.chosen(1), selection.chosen(2)};
     selection.take_best([&](const Flat& p) { return triangle.area_added_by(p); });
   }
-  include_deepest(selection, k_deeper);
+  include_deepest(selection, k_deeper, {});
   LKS_ASSERT(selection.count > 0 && selection.count <= 4);
 }
 
@@ -178,6 +192,7 @@ int drop_far_vertices(std::span<FaceVertex> polygon, Length margin) {
 }
 
 int reduce_to_four(std::span<FaceVertex> polygon, int shift) {
+  LKS_ASSERT(polygon.size() <= k_most_reduced && shift >= 0);
   sort_by_feature(polygon);
   return reduce_sorted_to_four(without_repeats(polygon), shift, {});
 }
@@ -186,7 +201,7 @@ int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift, const HeldFe
   if (polygon.size() <= 4) return static_cast<int>(polygon.size());
   Selection selection(polygon, shift);
   if (take_held(selection, held))
-    include_deepest(selection, k_much_deeper);
+    include_deepest(selection, k_much_deeper, held);
   else
     select_four(selection);
   LKS_ASSERT(selection.count > 0 && selection.count <= 4);

@@ -45,14 +45,16 @@ inline constexpr std::size_t k_most_reduced = 272;
 [[nodiscard]] int reduce_to_four(std::span<FaceVertex> polygon, int shift);
 
 /// The same for vertices that ascend by feature and have one each. Where four of them have the
-/// features that were held, these stay, but for one that is more than k_much_deeper deeper.
+/// features that were held, these stay; one that is more than k_much_deeper deeper than they
+/// replaces the nearest of those that carried nothing. A rocking body would rattle if the point
+/// that holds it were replaced.
 [[nodiscard]] int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift,
                                         const HeldFeatures& held);
 
 /// 7.6 µm.
 inline constexpr Fine k_deeper = Fine{1} << (k_fine_bits - 17);
 
-/// 0.49 mm: less, and the four of a loaded polygon of more alternate.
-inline constexpr Fine k_much_deeper = Fine{1} << (k_fine_bits - 11);
+/// 61 µm.
+inline constexpr Fine k_much_deeper = Fine{1} << (k_fine_bits - 14);
 
 }  // namespace lockstone::geometry

@@ -41,7 +41,10 @@ struct ManifoldInput {
   Vec3<Position> offset{};
   PoseKey pose_a{}, pose_b{};
   Length margin{};
-  HeldFeatures held{};
+  // Of HeldFeatures. A manifold that was found while others were held may be another one once its
+  // own are.
+  static constexpr std::uint8_t k_holds_none = 0, k_holds_own = 16, k_holds_others = 255;
+  std::uint8_t held = k_holds_none;  // or k_holds_own, with bit n if an impulse pushed at point n
 
   friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
   /// Where poses tell all: recycling poses do.

@@ -17,17 +17,34 @@ namespace lockstone {
 
 namespace {
 
-// Of two boxes that touched a tick ago; other pairs hold nothing. Which of those that are apart
-// have a contact follows from how bounds are rounded, and must not change what comes.
+// Of two boxes that touched a tick ago; other pairs hold nothing. Whether boxes that are apart have
+// a contact follows from how bounds are rounded, and must not change the results.
 HeldFeatures held_features(std::span<const ContactRecord> before, const Shape& a, const Shape& b) {
   HeldFeatures held;
   if (before.size() != 1 || !before.front().is_touching()) return held;
   if (a.kind != ShapeKind::box || b.kind != ShapeKind::box) return held;
   LKS_ASSERT(before.front().count <= held.features.size());
   held.count = before.front().count;
-  for (std::size_t i = 0; i < before.front().count; ++i)
-    held.features[i] = before.front().points[i].feature;
+  for (std::uint32_t i = 0; i < before.front().count; ++i) {
+    const ContactPointRecord& point = before.front().points[i];
+    held.features[i] = point.feature;
+    if (point.normal_impulse > SolverVelocity{})
+      held.loaded = static_cast<std::uint16_t>(held.loaded | 1U << i);
+  }
   return held;
+}
+
+// As if they are those of the pair's own manifold.
+std::uint8_t held_own(const HeldFeatures& held) {
+  if (held.count == 0) return ManifoldInput::k_holds_none;
+  return static_cast<std::uint8_t>(ManifoldInput::k_holds_own | held.loaded);
+}
+
+bool has_features(const Manifold& manifold, const HeldFeatures& held) {
+  bool are_same = manifold.count == held.count;
+  for (std::size_t i = 0; are_same && i < held.count; ++i)
+    are_same = manifold.points[i].feature == held.features[i];
+  return are_same;
 }
 
 }  // namespace
@@ -63,7 +80,7 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
   } else {
     read_poses(pair, margin, input);
   }
-  input.held = held_features(before, a.shape(), b.shape());
+  input.held = held_own(held_features(before, a.shape(), b.shape()));
   const std::uint32_t known = remembered_manifold(before);
   const bool is_known = known != ManifoldIds::k_none &&
                         (is_recycled ? data_.notes_before.inputs[known].has_same_poses(input)
@@ -139,7 +156,7 @@ void PairCollider::collide_primitives(std::uint32_t index, std::span<const Conta
     return timer.found_apart();
   }
   // The batch holds no edges.
-  const HeldFeatures& held = entry.input.held;
+  const HeldFeatures held = held_features(before, shape_a, shape_b);
   const bool may_wait = waiting.are_admitted && !geometry::is_of_edges(held.first());
   if (may_wait && geometry::BoxBatch::takes(shape_a, shape_b, offset)) {
     entry.index = index;
@@ -161,7 +178,8 @@ int PairCollider::collide_alone(std::uint32_t index, const ManifoldInput& input,
                                                  : data_.found.manifolds[id];
   const std::vector<Mat3>& turned = rotations_of(pair);
   lockstone::collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]},
-                     saturated<Length>(input.offset), input.margin, input.held, manifold);
+                     saturated<Length>(input.offset), input.margin,
+                     held_features(before, shape_a, shape_b), manifold);
   if (manifold.count == 0) {
     data_.separating_axes.note(index, pair, manifold.normal);
     ManifoldIds::release(scratch_, id);
@@ -207,6 +225,10 @@ void PairCollider::fill_single(std::uint32_t index, std::uint32_t id, const Mani
   const Pair pair = data_.pairs[index];
   data_.of_pair[index] = {id, 1};
   fill(id, {pair.a, pair.b, 0, 0}, nullptr, nullptr, input, before);
+  const HeldFeatures held =
+      held_features(before, world_.bodies[pair.a].shape(), world_.bodies[pair.b].shape());
+  if (held.count != 0 && !has_features(data_.found.manifolds[id], held))
+    data_.notes.inputs[id].held = ManifoldInput::k_holds_others;
 }
 
 // All but the manifold, which is there as it was found.
