@@ -93,6 +93,7 @@ std::int64_t along_fixed_direction(const Flat& p) {
 }
 
 void take_extreme(Selection& selection) {
+  LKS_ASSERT(selection.size() > 0);
   int best = 0;
   for (int i = 1; i < selection.size(); ++i) {
     if (along_fixed_direction(selection.at(i)) > along_fixed_direction(selection.at(best))) {
@@ -125,6 +126,7 @@ std::size_t least_needed(const Selection& selection, int other, const HeldFeatur
 /// they are higher by more than `much`.
 void include_deepest(Selection& selection, Fine much, const HeldFeatures& held) {
   LKS_ASSERT(selection.count > 0 && selection.count <= 4);
+  LKS_ASSERT(much > 0);
   int deepest = 0;
   for (int i = 1; i < selection.size(); ++i) {
     if (selection.height(i) < selection.height(deepest)) deepest = i;
