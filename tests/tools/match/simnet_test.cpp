@@ -88,8 +88,8 @@ TEST(Simnet, WhoComesBackAtTheVeryEndOfAFastMatchIsTooLate) {
   BatchOptions options = small_batch(1810);
   options.seeds = 1;
   std::uint64_t in_time = 0, too_late = 0;
-  for (std::uint32_t until_ms = 5'000; until_ms < 8'500;
-       until_ms += 50 * std::min(test::k_share, 2)) {
+  constexpr std::uint32_t k_step_ms = 50 * std::min(test::k_share, 2);
+  for (std::uint32_t until_ms = 5'000; until_ms < 8'500; until_ms += k_step_ms) {
     options.schedule =
         Schedule{{FaultKind::delay, 2, 0, 8'500, 23}, {FaultKind::kill, 0, 500, until_ms, 0}};
     const BatchTotals totals = play(options, Defect::none);
