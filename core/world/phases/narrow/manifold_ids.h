@@ -63,6 +63,7 @@ struct WaitingBoxes {
   struct Entry {
     std::uint32_t index = 0;
     ManifoldInput input{};
+    HeldFeatures held{};
     std::span<const ContactRecord> before{};
   };
 

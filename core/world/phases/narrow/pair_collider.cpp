@@ -14,7 +14,6 @@
 #include "core/world/phases/narrow/one_way.h"
 
 namespace lockstone {
-
 namespace {
 
 // Of two boxes that touched a tick ago; other pairs hold nothing. Whether boxes that are apart have
@@ -71,8 +70,9 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
   if (is_one_way_pair(world_, pair)) return collide_one_way(index, before, timer);
   const Length margin = margin_of(world_, pair);
   const bool is_recycled = is_found_at_recycling_poses(world_, pair);
-  // Where it stays if the pair is to wait.
-  ManifoldInput& input = scratch_.boxes.entries[scratch_.boxes.batch.size()].input;
+  // Where they stay if the pair is to wait.
+  WaitingBoxes::Entry& entry = scratch_.boxes.entries[scratch_.boxes.batch.size()];
+  ManifoldInput& input = entry.input;
   if (is_recycled) {
     input.margin = margin;
     input.pose_a = key_of_recycling_pose(world_.cache.recycling_pose_number(pair.a));
@@ -80,7 +80,8 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
   } else {
     read_poses(pair, margin, input);
   }
-  input.held = held_own(held_features(before, a.shape(), b.shape()));
+  entry.held = held_features(before, a.shape(), b.shape());
+  input.held = held_own(entry.held);
   const std::uint32_t known = remembered_manifold(before);
   const bool is_known = known != ManifoldIds::k_none &&
                         (is_recycled ? data_.notes_before.inputs[known].has_same_poses(input)
@@ -156,36 +157,34 @@ void PairCollider::collide_primitives(std::uint32_t index, std::span<const Conta
     return timer.found_apart();
   }
   // The batch holds no edges.
-  const HeldFeatures held = held_features(before, shape_a, shape_b);
-  const bool may_wait = waiting.are_admitted && !geometry::is_of_edges(held.first());
+  const bool may_wait = waiting.are_admitted && !geometry::is_of_edges(entry.held.first());
+  entry.index = index;
+  entry.before = before;
   if (may_wait && geometry::BoxBatch::takes(shape_a, shape_b, offset)) {
-    entry.index = index;
-    entry.before = before;
-    waiting.batch.add(a, b, offset, entry.input.margin, held);
+    waiting.batch.add(a, b, offset, entry.input.margin, entry.held);
     if (waiting.batch.is_full()) collide_waiting();
     return;
   }
-  timer.found(collide_alone(index, entry.input, before));
+  timer.found(collide_alone(entry));
 }
 
 // Returns the number of manifolds.
-int PairCollider::collide_alone(std::uint32_t index, const ManifoldInput& input,
-                                std::span<const ContactRecord> before) {
-  const Pair pair = data_.pairs[index];
+int PairCollider::collide_alone(const WaitingBoxes::Entry& entry) {
+  const Pair pair = data_.pairs[entry.index];
   const Shape shape_a = world_.bodies[pair.a].shape(), shape_b = world_.bodies[pair.b].shape();
   const std::uint32_t id = data_.ids.take(scratch_, 1);
   Manifold& manifold = id == ManifoldIds::k_none ? scratch_.part_contacts.contacts.front().manifold
                                                  : data_.found.manifolds[id];
   const std::vector<Mat3>& turned = rotations_of(pair);
   lockstone::collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]},
-                     saturated<Length>(input.offset), input.margin,
-                     held_features(before, shape_a, shape_b), manifold);
+                     saturated<Length>(entry.input.offset), entry.input.margin, entry.held,
+                     manifold);
   if (manifold.count == 0) {
-    data_.separating_axes.note(index, pair, manifold.normal);
+    data_.separating_axes.note(entry.index, pair, manifold.normal);
     ManifoldIds::release(scratch_, id);
     return 0;
   }
-  if (id != ManifoldIds::k_none) fill_single(index, id, input, before);
+  if (id != ManifoldIds::k_none) fill_found(entry, id);
   return 1;
 }
 
@@ -195,13 +194,13 @@ void PairCollider::collide_waiting() {
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const WaitingBoxes::Entry& entry = scratch_.boxes.entries[i];
     if (!batch.is_settled(i)) {
-      collide_alone(entry.index, entry.input, entry.before);
+      collide_alone(entry);
       continue;
     }
     const std::uint32_t id = data_.ids.take(scratch_, 1);
     if (id == ManifoldIds::k_none) continue;
     batch.write(i, data_.found.manifolds[id]);
-    fill_single(entry.index, id, entry.input, entry.before);
+    fill_found(entry, id);
   }
   batch.clear();
 }
@@ -225,9 +224,12 @@ void PairCollider::fill_single(std::uint32_t index, std::uint32_t id, const Mani
   const Pair pair = data_.pairs[index];
   data_.of_pair[index] = {id, 1};
   fill(id, {pair.a, pair.b, 0, 0}, nullptr, nullptr, input, before);
-  const HeldFeatures held =
-      held_features(before, world_.bodies[pair.a].shape(), world_.bodies[pair.b].shape());
-  if (held.count != 0 && !has_features(data_.found.manifolds[id], held))
+}
+
+// The same of a manifold that was found now.
+void PairCollider::fill_found(const WaitingBoxes::Entry& entry, std::uint32_t id) {
+  fill_single(entry.index, id, entry.input, entry.before);
+  if (entry.held.count != 0 && !has_features(data_.found.manifolds[id], entry.held))
     data_.notes.inputs[id].held = ManifoldInput::k_holds_others;
 }
 

@@ -36,8 +36,7 @@ class PairCollider {
                           const Vec3<Unit>& last_axis, PairTimer& timer);
   void collide_one_way(std::uint32_t index, std::span<const ContactRecord> before,
                        PairTimer& timer);
-  int collide_alone(std::uint32_t index, const ManifoldInput& input,
-                    std::span<const ContactRecord> before);
+  int collide_alone(const WaitingBoxes::Entry& entry);
   void collide_waiting();
   void add_known(std::uint32_t index, std::uint32_t known, const ManifoldInput& input,
                  std::span<const ContactRecord> before);
@@ -46,6 +45,7 @@ class PairCollider {
   void add_trigger(std::uint32_t index, std::span<const ContactRecord> before);
   void fill_single(std::uint32_t index, std::uint32_t id, const ManifoldInput& input,
                    std::span<const ContactRecord> before);
+  void fill_found(const WaitingBoxes::Entry& entry, std::uint32_t id);
   void fill(std::uint32_t id, const ContactKey& key, const Surface* surface_a,
             const Surface* surface_b, const ManifoldInput& input,
             std::span<const ContactRecord> before);
