@@ -16,7 +16,8 @@ enum VehicleFlag : std::uint32_t {
   k_vehicle_casts_spheres = 2,
   k_vehicle_leans = 4,       // a motorcycle
   k_vehicle_has_tracks = 8,  // not both
-  k_all_vehicle_flags = 15,
+  k_all_vehicle_flags =
+      k_vehicle_automatic | k_vehicle_casts_spheres | k_vehicle_leans | k_vehicle_has_tracks,
 };
 
 struct AxleRecord {

@@ -87,7 +87,7 @@ void BoxBatch::settle(std::size_t pair) {
   const std::uint32_t held = held_[pair].first();
   const bool of_b = (face.common >> 12 & 1) != 0;
   if (!apart && is_of_face(held) && is_of_second_face(held) != of_b) return;
-  swapped_[pair] = flips_[pair] ^ (face.common >> 12 & 1);
+  swapped_[pair] = flips_[pair] ^ (of_b ? 1 : 0);
   Clipping clipping;
   const ClipPolygon& polygon = clipping.clip(face);
   KeptVertices kept(polygon, Length::from_raw(sources_[pair].margin));

@@ -3,6 +3,7 @@
 #include <lockstone/assert.h>
 
 #include "core/geometry/contact/box/box_segment.h"
+#include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"

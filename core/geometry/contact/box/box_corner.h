@@ -14,9 +14,6 @@ struct EdgeContact {
 /// One point between the edges that support the axis.
 [[nodiscard]] EdgeContact edge_contact(const BoxPair& pair, const EdgeAxis& axis);
 
-/// Whether a point's feature is that of two edges.
-[[nodiscard]] bool is_of_edges(std::uint32_t feature);
-
 /// The axis of two edges whose contact has this feature.
 [[nodiscard]] EdgeAxis edge_axis_of(const BoxPair& pair, std::uint32_t feature);
 

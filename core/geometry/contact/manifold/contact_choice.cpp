@@ -23,11 +23,7 @@ bool attains(const Manifold& manifold, Fine separation) {
 }
 
 bool touches(const Manifold& manifold) {
-  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
-  for (int i = 0; i < manifold.count; ++i) {
-    if (manifold.points[static_cast<std::size_t>(i)].separation.raw <= 0) return true;
-  }
-  return false;
+  return deepest_of(manifold) <= 0;
 }
 
 bool are_alike(const Vec3<Unit>& a, const Vec3<Unit>& b) {

@@ -1,5 +1,5 @@
-// How much better a less stable choice must be before it is taken, and a choice of the tick before
-// be left.
+// How much better a less stable choice must be before it is taken, and any other before it replaces
+// the choice of a tick ago.
 #pragma once
 
 #include "core/geometry/numeric/q50.h"
