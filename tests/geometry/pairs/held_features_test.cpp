@@ -73,18 +73,28 @@ TEST(HeldFeatures, KeepNormalsFromAlternatingWhileBoxesTremble) {
   EXPECT_LT(4 * held, plain);
 }
 
+/// Boxes that have moved since they had the features that they hold.
+struct MovedBoxes {
+  Scene scene;
+  HeldFeatures held;
+
+  MovedBoxes(Dice& dice, double metres_most) : scene(touching_boxes(dice)) {
+    held = held_by(scene.collide());
+    tremble(dice, metres_most, scene);
+  }
+  [[nodiscard]] Manifold collide() const { return collide_holding(scene, held); }
+};
+
 TEST(HeldFeatures, CostNoMoreOverlapThanTheirMargins) {
   Dice dice;
   for (int round = 0; round < 3000; ++round) {
-    Scene scene = touching_boxes(dice);
-    const HeldFeatures held = held_by(scene.collide());
-    tremble(dice, 2e-3, scene);
-    const Manifold plain = scene.collide(), holding = collide_holding(scene, held);
+    const MovedBoxes boxes(dice, 2e-3);
+    const Manifold plain = boxes.scene.collide(), holding = boxes.collide();
     if (!geometry::touches(plain)) continue;
-    ASSERT_TRUE(geometry::touches(holding)) << describe(scene);
+    ASSERT_TRUE(geometry::touches(holding)) << describe(boxes.scene);
     // Twice a tenth and half a millimetre: of edges beside a face, and of that beside other edges.
     const double deepest = depth(plain);
-    EXPECT_GT(depth(holding), 1.25 * deepest - 1.2e-3) << describe(scene);
+    EXPECT_GT(depth(holding), 1.25 * deepest - 1.2e-3) << describe(boxes.scene);
   }
 }
 
@@ -92,25 +102,22 @@ TEST(HeldFeatures, CostNoMoreOverlapThanTheirMargins) {
 TEST(HeldFeatures, OfAManifoldGiveThatManifold) {
   Dice dice;
   for (int round = 0; round < 20000; ++round) {
-    Scene scene = touching_boxes(dice);
-    const HeldFeatures before = held_by(scene.collide());
-    tremble(dice, 2e-3, scene);
-    const Manifold found = collide_holding(scene, before);
+    const MovedBoxes boxes(dice, 2e-3);
+    const Manifold found = boxes.collide();
     if (found.count == 0) continue;
     const HeldFeatures held = held_by(found);
-    EXPECT_EQ(held, held_by(collide_holding(scene, held))) << describe(scene);
+    EXPECT_EQ(held, held_by(collide_holding(boxes.scene, held))) << describe(boxes.scene);
   }
 }
 
 TEST(HeldFeatures, GiveTheSameManifoldInEitherOrder) {
   Dice dice;
   for (int round = 0; round < 1000; ++round) {
-    Scene scene = touching_boxes(dice);
-    const HeldFeatures held = held_by(scene.collide());
-    tremble(dice, 1e-3, scene);
+    const MovedBoxes boxes(dice, 1e-3);
+    const Scene& scene = boxes.scene;
     Manifold back;
-    collide(scene.posed_b(), scene.posed_a(), -scene.offset, scene.margin, held, back);
-    expect_flipped(collide_holding(scene, held), back);
+    collide(scene.posed_b(), scene.posed_a(), -scene.offset, scene.margin, boxes.held, back);
+    expect_flipped(boxes.collide(), back);
   }
 }
 

@@ -103,11 +103,7 @@ TEST(Tracks, TurnAboutATrackThatStands) {
 // The wheels of a side are on one shaft.
 TEST(Tracks, TurnAsOne) {
   World world = test::make_road();
-  BodyDef step;
-  step.motion = MotionType::static_body;
-  step.shape = Shape::box(0.5_m, 0.1_m, 5_m);
-  step.position = {5_m, 0.1_m, {}};
-  test::add(world, step);
+  test::add_step(world, Shape::box(0.5_m, 0.1_m, 5_m), {5_m, 0.1_m, {}});
   VehicleDef def = tank();
   def.cast = WheelCast::sphere;
   const BodyHandle body = test::add_vehicle(world, def, hull_def());

@@ -25,6 +25,14 @@ inline World make_road(std::uint16_t tick_rate = 60) {
   return world;
 }
 
+inline void add_step(World& world, const Shape& shape, const Vec3<Position>& position) {
+  BodyDef step;
+  step.motion = MotionType::static_body;
+  step.shape = shape;
+  step.position = position;
+  add(world, step);
+}
+
 inline BodyHandle add_vehicle(World& world, const VehicleDef& vehicle, const BodyDef& def) {
   const BodyHandle body = add(world, def);
   EXPECT_EQ(world.apply(SetVehicle{body, vehicle}), Status::ok);

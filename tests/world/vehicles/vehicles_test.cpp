@@ -244,11 +244,7 @@ TEST(Vehicles, DriveBackwardsAndStayWhereNothingDrives) {
 
 TEST(Vehicles, RollOverStepsOnSpheres) {
   World world = make_road();
-  BodyDef step;
-  step.motion = MotionType::static_body;
-  step.shape = Shape::box(5_m, 0.06_m, 5_m);
-  step.position = {12_m, 0.06_m, {}};
-  test::add(world, step);
+  test::add_step(world, Shape::box(5_m, 0.06_m, 5_m), {12_m, 0.06_m, {}});
   VehicleDef def = car();
   def.cast = WheelCast::sphere;
   const BodyHandle body = add_car(world, def);
