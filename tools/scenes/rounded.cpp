@@ -82,7 +82,8 @@ void build_pebbles(World& world, std::uint64_t seed) {
   BodyDef slope = fixed_box({4_m, 0.6_m, {}}, {2_m, 0.2_m, 1.5_m});
   slope.orientation = from_axis_angle(k_z_axis, 0.35_rad);
   add(world, slope);
-  const std::span<const AssetPtr> kinds = world.assets()->all();
+  const AssetSet set(pebbles(seed));  // the world's own may have those of other scenes too
+  const std::span<const AssetPtr> kinds = set.all();
   Random random(mix(seed));
   for (std::int64_t i = 0; i < 40; ++i) {
     const auto kind = static_cast<std::size_t>(i) % kinds.size();
