@@ -140,7 +140,7 @@ const BodyRecord* existing(const BodyRecord* record, BodyHandle body, const char
 }
 
 // Of the shape's frame: without an asset that of the record, and no call.
-Transform pose_of(const BodyRecord& record, const Asset* asset) {
+Transform pose_of(const BodyRecord& record, const geometry::AssetGeometry* asset) {
   const Transform pose{record.position, record.orientation};
   return asset == nullptr ? pose : shape_pose(asset, pose);
 }

@@ -21,7 +21,7 @@ PlacedShape placed_near(Dice& dice, const Shape& shape, const Asset* asset, doub
   Vec3<Position> at;
   for (int i = 0; i < 3; ++i)
     at[i] = rounded<Position>(metres(dice.uniform(-reach, reach)));
-  return {shape, asset, at, to_matrix(dice.orientation()), at};
+  return {shape, geometry::geometry_of(asset), at, to_matrix(dice.orientation()), at};
 }
 
 // Balls of every size about hulls and primitives: inside, across their surfaces and beside them.
@@ -58,7 +58,7 @@ TEST(BodiesOverlap, HoldsToTheFrontOfTriangles) {
   const auto ball_meets = [&](double y) {
     const Vec3<Position> at{{}, rounded<Position>(metres(y)), {}};
     const PlacedShape ball{Shape::sphere(metres(2)), nullptr, at, to_matrix(Quat{}), at};
-    return bodies_overlap(ball, {sheet->shape(), sheet.get(), {}, to_matrix(Quat{}), {}});
+    return bodies_overlap(ball, {sheet->shape(), &sheet->geometry(), {}, to_matrix(Quat{}), {}});
   };
   EXPECT_NE(ball_meets(0.5), ball_meets(-0.5));
 }

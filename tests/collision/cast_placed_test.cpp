@@ -56,7 +56,7 @@ Vec3<Position> random_place(Dice& dice, double reach) {
 
 PlacedShape placed(Dice& dice, const Shape& shape, const Asset* asset, double reach) {
   const Vec3<Position> place = random_place(dice, reach);
-  return {shape, asset, place, to_matrix(dice.orientation()), place};
+  return {shape, geometry::geometry_of(asset), place, to_matrix(dice.orientation()), place};
 }
 
 // Asks every piece for the whole way, in the order of parts.
@@ -175,8 +175,8 @@ TEST(CastPlaced, AHullMeetsTheTriangleThatTheMiddleOfItsBoundsIsBehind) {
   def.triangles = triangles;
   const auto mesh = Mesh::build(def).mesh;
   ASSERT_NE(mesh, nullptr);
-  const PlacedShape target{mesh->shape(), mesh.get(), {}, {}, {}};
-  const PlacedShape convex{hull->shape(), hull.get(), {}, {}, {}};
+  const PlacedShape target{mesh->shape(), &mesh->geometry(), {}, {}, {}};
+  const PlacedShape convex{hull->shape(), &hull->geometry(), {}, {}, {}};
   const PlacedShapeHit hit = cast_shape(target, convex, metres(0.5, 0.5, 0.5), k_whole);
   ASSERT_TRUE(hit.hit);
   EXPECT_NEAR(static_cast<double>(real(hit.fraction)), 0.2 / 1.5, 1e-5);

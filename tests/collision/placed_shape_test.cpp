@@ -26,12 +26,12 @@ TEST(WorldBox, OfAHullIsThatOfItsVertices) {
     ++hulls;
     const Vec3<Position> origin =
         rounded<Position>(metres(dice.uniform(-9, 9), dice.uniform(-9, 9), dice.uniform(-9, 9)));
-    const PlacedShape placed{hull->shape(), hull.get(), origin, to_matrix(dice.orientation()),
-                             origin};
+    const PlacedShape placed{hull->shape(), &hull->geometry(), origin,
+                             to_matrix(dice.orientation()), origin};
     const WorldBox box = world_box(placed);
     WorldBox exact{origin, origin};
     bool first = true;
-    for (const Vec3<Length>& vertex : hull->polytope()->vertices) {
+    for (const Vec3<Length>& vertex : hull->geometry().polytope()->vertices) {
       const Vec3<Position> at = origin + rotate(placed.rotation, rounded<Position>(vertex));
       for (int i = 0; i < 3; ++i) {
         exact.lower[i] = first ? at[i] : min(exact.lower[i], at[i]);

@@ -30,11 +30,11 @@ TEST(FrontCrossing, IsFoundOnEveryWayThrough) {
   Dice dice;
   for (int run = 0; run < 20'000; ++run) {
     const Vec3<Length> from = somewhere(dice, 1.0, 3.0), to = somewhere(dice, -3.0, -0.01);
-    const FrontCrossing crossing = first_front_crossing(*mesh, {from, to});
+    const FrontCrossing crossing = first_front_crossing(mesh->geometry(), {from, to});
     ASSERT_TRUE(crossing.found) << run;
     ASSERT_LT(crossing.height, 0);
     const Vec3<Length> below = {from.x, to.y, from.z};
-    ASSERT_FALSE(first_front_crossing(*mesh, {below, from}).found) << run;
+    ASSERT_FALSE(first_front_crossing(mesh->geometry(), {below, from}).found) << run;
   }
 }
 
@@ -47,7 +47,7 @@ TEST(FrontCrossing, IsFoundAtCorners) {
     const Vec3<Length> corner = metres(0.5 * i, bumps(i, j), 0.5 * j);
     Vec3<Length> way = metres(dice.uniform(-1, 1), 0, dice.uniform(-1, 1));
     way.y = metres(-3);
-    ASSERT_TRUE(first_front_crossing(*mesh, {corner - way, corner + way}).found) << run;
+    ASSERT_TRUE(first_front_crossing(mesh->geometry(), {corner - way, corner + way}).found) << run;
   }
 }
 
@@ -56,13 +56,13 @@ TEST(FrontCrossing, NothingNearerThanTheGuardIsLeft) {
   const AssetPtr mesh = Mesh::build(test::grid(3, 3, 1.0, [](int, int) { return 0.0; }).def()).mesh;
   Vec3<Length> from = metres(0.7, 0.1, 0.4), to = metres(0.9, 0, 1.3);
   to.y = k_front_margin;
-  EXPECT_FALSE(first_front_crossing(*mesh, {from, to}).found);
+  EXPECT_FALSE(first_front_crossing(mesh->geometry(), {from, to}).found);
   to.y = k_front_margin - Length::from_raw(1);
-  const FrontCrossing crossing = first_front_crossing(*mesh, {from, to});
+  const FrontCrossing crossing = first_front_crossing(mesh->geometry(), {from, to});
   EXPECT_TRUE(crossing.found);
   EXPECT_EQ(crossing.height, fine(to.y));
   from.y = -Length::from_raw(1);
-  EXPECT_FALSE(first_front_crossing(*mesh, {from, to}).found);  // from behind
+  EXPECT_FALSE(first_front_crossing(mesh->geometry(), {from, to}).found);  // from behind
 }
 
 TEST(FrontCrossing, IsTheFirstOfSeveral) {
@@ -79,7 +79,7 @@ TEST(FrontCrossing, IsTheFirstOfSeveral) {
   }
   const AssetPtr mesh = Mesh::build(sheets.def()).mesh;
   const FrontCrossing crossing =
-      first_front_crossing(*mesh, {metres(0.6, 3, 0.3), metres(0.6, -1, 0.3)});
+      first_front_crossing(mesh->geometry(), {metres(0.6, 3, 0.3), metres(0.6, -1, 0.3)});
   ASSERT_TRUE(crossing.found);
   EXPECT_EQ(crossing.fraction, Unit::from_ratio(1, 2));
 }

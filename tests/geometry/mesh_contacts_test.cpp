@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/dispatch/polytope_kernels.h"
 #include "core/geometry/distance/contact_point.h"
 #include "tests/geometry/assets/asset_parts.h"
@@ -128,7 +129,7 @@ std::vector<TriangleContact> contacts_of(const Asset& mesh, const Pose& pose) {
   const Vec3<Length> around{reach, reach, reach};
   std::vector<TriangleContact> contacts;
   CollectContacts collect(pose, contacts);
-  mesh.visit_parts({local - around, local + around}, collect);
+  mesh.geometry().visit_parts({local - around, local + around}, collect);
   return contacts;
 }
 

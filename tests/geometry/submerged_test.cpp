@@ -11,6 +11,7 @@
 #include <lockstone/hull.h>
 #include <lockstone/literals.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/numeric/q50.h"
@@ -332,15 +333,17 @@ TEST(PartBelow, OfAHullIsThatOfTheBoxItEquals) {
     for (int axis = 0; axis < 3; ++axis)
       moved += rounded<Position>(normal[axis] * at[axis]);
     const Values wanted = values_of(part_below({box, nullptr}, {normal, offset}));
-    const SubmergedPart part = part_below({hull->shape(), hull->polytope()}, {normal, moved});
+    const SubmergedPart part =
+        part_below({hull->shape(), hull->geometry().polytope()}, {normal, moved});
     Values got = values_of(part);
     for (int axis = 0; axis < 3; ++axis)
       got.moment[static_cast<std::size_t>(axis)] -= got.volume * value(at[axis]);
     expect_near(got, wanted, part.scale, 3e-8L, "hull");
-    EXPECT_NEAR(static_cast<double>(values_of(whole({hull->shape(), hull->polytope()})).volume),
-                static_cast<double>(8 * value(box.size.x) * value(box.size.y) * value(box.size.z)),
-                std::ldexp(3e-8, 3 * part.scale));
-    const Shadow of_hull = shadow_of({hull->shape(), hull->polytope()}, normal);
+    EXPECT_NEAR(
+        static_cast<double>(values_of(whole({hull->shape(), hull->geometry().polytope()})).volume),
+        static_cast<double>(8 * value(box.size.x) * value(box.size.y) * value(box.size.z)),
+        std::ldexp(3e-8, 3 * part.scale));
+    const Shadow of_hull = shadow_of({hull->shape(), hull->geometry().polytope()}, normal);
     const Shadow of_box = shadow_of({box, nullptr}, normal);
     EXPECT_NEAR(std::ldexp(static_cast<double>(of_hull.area), 2 * of_hull.scale - 48),
                 std::ldexp(static_cast<double>(of_box.area), 2 * of_box.scale - 48),

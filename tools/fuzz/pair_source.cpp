@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/geometry/shapes/tapered_ends.h"
@@ -72,7 +73,7 @@ Body random_body(HullPool& pool, Dice& dice, Kind kind, const Sizes& sizes, std:
     const std::uint64_t built = std::min(k_hull_pool, 64 + index / 64);
     body.hull = pool.at(dice.next() % built);
     body.shape = body.hull->shape();
-    body.polytope = body.hull->polytope();
+    body.polytope = body.hull->geometry().polytope();
   }
   if (kind == Kind::rounded_hull) {
     const std::uint64_t built = std::min(k_hull_pool, 64 + index / 64);
@@ -80,7 +81,7 @@ Body random_body(HullPool& pool, Dice& dice, Kind kind, const Sizes& sizes, std:
     body.hull = Hull::build(sharp->vertices(), HullOptions::rounded(x, 128)).hull;
     if (body.hull == nullptr) body.hull = sharp;  // too large
     body.shape = body.hull->shape();
-    body.polytope = body.hull->polytope();
+    body.polytope = body.hull->geometry().polytope();
     body.radius = real(body.hull->radius());
   }
   if (kind == Kind::triangle) {

@@ -9,6 +9,7 @@
 #include <lockstone/literals.h>
 #include <lockstone/vehicle.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/parts.h"
 #include "tools/render/convex_facets.h"
 
@@ -80,7 +81,7 @@ class Pieces final : public geometry::PartVisitor {
     item.solid.size = to_vec(shape.size);
     item.solid.color = tinted(item.solid.color, surface);
     const auto inner = polytope == nullptr ? hull_within(shape) : hull_within(*polytope);
-    if (inner != nullptr) polytope = inner->polytope();
+    if (inner != nullptr) polytope = inner->geometry().polytope();
     if (polytope != nullptr) {
       const bool flat = geometry::is_flat(*polytope);
       item.solid.facets = facets_of(*polytope, place, flat ? 1 : polytope->faces.size());
@@ -141,7 +142,7 @@ void add_body(const World& world, BodyHandle body, const Style& style, std::vect
   const Item blank = blank_item(body, view, look);
   add_wheels(world, body, blank, place_of(view), items);
   Pieces pieces(items, blank, place_of(view));
-  const Asset* asset = asset_of(world, body);
+  const geometry::AssetGeometry* asset = geometry_of(world, body);
   const geometry::Polytope* polytope = asset == nullptr ? nullptr : asset->polytope();
   if (asset == nullptr || polytope != nullptr) {
     pieces.add(view.shape, polytope, place_of(view), nullptr);

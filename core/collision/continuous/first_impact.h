@@ -15,7 +15,7 @@ namespace lockstone {
 /// A shape on a body whose sweep is that of its centre of mass and principal axes.
 struct MovingShape {
   const Shape& shape;
-  const Asset* asset;
+  const geometry::AssetGeometry* asset;
   const Sweep& motion;
 };
 

@@ -70,7 +70,7 @@ void add_pieces(const BodyPair& pair, const Piece& a, const Piece& b, PartContac
 }
 
 PosedShape posed(const PlacedShape& single) {
-  const Asset* asset = single.asset;
+  const geometry::AssetGeometry* asset = single.asset;
   return {single.shape, single.rotation, asset == nullptr ? nullptr : asset->polytope()};
 }
 

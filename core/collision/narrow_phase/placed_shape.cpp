@@ -10,7 +10,7 @@
 namespace lockstone {
 namespace {
 
-const geometry::Solid* solid_of(const Asset* asset) {
+const geometry::Solid* solid_of(const geometry::AssetGeometry* asset) {
   return asset == nullptr ? nullptr : asset->solid();
 }
 
@@ -45,7 +45,7 @@ WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytop
 
 }  // namespace
 
-ShapeFrame shape_frame(const Asset* asset, const Mat3& rotation) {
+ShapeFrame shape_frame(const geometry::AssetGeometry* asset, const Mat3& rotation) {
   const geometry::Solid* solid = solid_of(asset);
   if (solid == nullptr) return {rotation, {}};
   const bool turned = solid->axes != Quat{};
@@ -53,17 +53,17 @@ ShapeFrame shape_frame(const Asset* asset, const Mat3& rotation) {
   return {frame, rotate(frame, rounded<Position>(solid->centre))};
 }
 
-PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
-                  const Mat3& rotation) {
+PlacedShape place(const Shape& shape, const geometry::AssetGeometry* asset,
+                  const Vec3<Position>& centre, const Mat3& rotation) {
   return place(shape, asset, centre, shape_frame(asset, rotation));
 }
 
-PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
-                  const ShapeFrame& frame) {
+PlacedShape place(const Shape& shape, const geometry::AssetGeometry* asset,
+                  const Vec3<Position>& centre, const ShapeFrame& frame) {
   return {shape, asset, centre - frame.centre, frame.rotation, centre};
 }
 
-Transform body_pose(const Asset* asset, const Transform& shape_pose) {
+Transform body_pose(const geometry::AssetGeometry* asset, const Transform& shape_pose) {
   const Quat orientation = normalized(shape_pose.orientation);
   const geometry::Solid* solid = solid_of(asset);
   if (solid == nullptr) return {shape_pose.position, orientation};
@@ -71,7 +71,7 @@ Transform body_pose(const Asset* asset, const Transform& shape_pose) {
           normalized(multiply(orientation, solid->axes))};
 }
 
-Transform shape_pose(const Asset* asset, const Transform& body_pose) {
+Transform shape_pose(const geometry::AssetGeometry* asset, const Transform& body_pose) {
   const geometry::Solid* solid = solid_of(asset);
   if (solid == nullptr) return body_pose;
   const Quat orientation = normalized(multiply(body_pose.orientation, conjugate(solid->axes)));
@@ -108,13 +108,13 @@ WorldBox world_box(const PlacedShape& placed) {
   return {placed.origin - reach, placed.origin + reach};
 }
 
-Length bounding_radius(const Shape& shape, const Asset* asset) {
+Length bounding_radius(const Shape& shape, const geometry::AssetGeometry* asset) {
   if (is_primitive(shape.kind)) return bounding_radius(shape);
   const geometry::Solid* solid = solid_of(asset);
   return solid == nullptr ? Length{} : solid->radius;
 }
 
-Length inner_radius(const Shape& shape, const Asset* asset) {
+Length inner_radius(const Shape& shape, const geometry::AssetGeometry* asset) {
   if (is_primitive(shape.kind)) return inner_radius(shape);
   const geometry::Solid* solid = solid_of(asset);
   return solid == nullptr ? Length{} : solid->inner_radius;

@@ -3,11 +3,13 @@
 #include <lockstone/assert.h>
 #include <lockstone/transform.h>
 
+#include "core/geometry/convex/asset_geometry.h"
+
 namespace lockstone {
 
 const geometry::Curve* find_curve(AssetId path, const AssetSet* assets) {
   const Asset* asset = assets == nullptr ? nullptr : assets->find(path);
-  return asset == nullptr ? nullptr : asset->curve();
+  return asset == nullptr ? nullptr : asset->geometry().curve();
 }
 
 PathFrame path_frame(const geometry::Curve& curve, const Mat3& frame_a, const Vec3<Position>& gap,

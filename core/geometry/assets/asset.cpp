@@ -3,6 +3,8 @@
 #include <lockstone/asset.h>
 #include <lockstone/hash.h>
 
+#include "core/geometry/convex/asset_geometry.h"
+
 namespace lockstone {
 namespace {
 
@@ -16,6 +18,13 @@ std::uint64_t hash_of(std::span<const AssetPtr> assets) {
 }
 
 }  // namespace
+
+Asset::Asset(ShapeKind kind, AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry)
+    : kind_(kind), id_(id), geometry_(std::move(geometry)) {
+  LKS_ASSERT(geometry_ != nullptr);
+}
+
+Asset::~Asset() = default;
 
 AssetSet::AssetSet(std::vector<AssetPtr> assets) : assets_(std::move(assets)) {
   if (std::ranges::find(assets_, nullptr) != assets_.end())

@@ -6,8 +6,8 @@
 #include <lockstone/compound.h>
 
 #include "core/geometry/assets/asset_frame.h"
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/compound_solid.h"
-#include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/geometry/convex/slab_tests.h"
 #include "core/math/rotation_log.h"
@@ -36,7 +36,7 @@ CompoundFault fault_of(const CompoundChild& child) {
   if (validate(child.shape) != Status::ok) return CompoundFault::invalid_shape;
   const AssetId named = child.asset == nullptr ? AssetId{} : child.asset->id();
   if (named != child.shape.asset_id()) return CompoundFault::missing_asset;
-  if (hull && child.asset->polytope() == nullptr) return CompoundFault::missing_asset;
+  if (hull && child.asset->geometry().polytope() == nullptr) return CompoundFault::missing_asset;
   if (!has_direction(child.orientation)) return CompoundFault::invalid_orientation;
   if (child.density < k_min_density || child.density > k_max_density) {
     return CompoundFault::invalid_density;
@@ -49,7 +49,7 @@ CompoundFault fault_of(const CompoundChild& child) {
 LocalBounds bounds_of(const CompoundChild& child, const Mat3& rotation) {
   LocalBounds own;
   if (child.asset != nullptr) {
-    own = child.asset->bounds();
+    own = child.asset->geometry().bounds();
   } else {
     const Vec3<Length> half = world_half_extents(child.shape, Mat3{});
     own = {-half, half};
@@ -129,9 +129,17 @@ CompoundChild decode_child(ByteReader& reader, const AssetSet& hulls) {
   return child;
 }
 
-}  // namespace
+// Children that the window meets within the visitor's present limit.
+template <class Geometry, class Window, class Limit, class Visitor>
+void visit_met(const Geometry& geometry, const Window& window, Limit most, Visitor& visitor) {
+  std::int64_t at = 0;
+  for (std::size_t i = 0; i < geometry.children.size(); ++i) {
+    if (window.meets(geometry.placed[i].bounds, window.limit_of(most), at))
+      most = visitor.visit(geometry.part(i));
+  }
+}
 
-struct Compound::Data {
+struct CompoundGeometry final : geometry::AssetGeometry {
   struct Placed {
     Mat3 rotation;
     LocalBounds bounds;
@@ -139,21 +147,39 @@ struct Compound::Data {
 
   std::vector<CompoundChild> children;
   std::vector<Placed> placed;  // by child
-  LocalBounds bounds;
-  geometry::Solid solid;
+  LocalBounds all_bounds;
+  geometry::Solid whole;
 
   [[nodiscard]] geometry::Part part(std::size_t index) const;
   void derive();
+
+  [[nodiscard]] const LocalBounds& bounds() const override { return all_bounds; }
+  [[nodiscard]] const geometry::Solid* solid() const override { return &whole; }
+  void visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const override {
+    for (std::size_t i = 0; i < children.size(); ++i)
+      if (geometry::overlap(region, placed[i].bounds)) visitor.visit(part(i));
+  }
+  void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                          const Vec3<Length>& reach,
+                          geometry::WayPartVisitor& visitor) const override {
+    visit_met(*this, geometry::RayWindow(origin, translation, reach), Unit::from_integer(1),
+              visitor);
+  }
+  void visit_parts_near(const Vec3<Length>& point, Length reach,
+                        geometry::NearPartVisitor& visitor) const override {
+    visit_met(*this, geometry::NearWindow(point), reach, visitor);
+  }
 };
 
-void Compound::Data::derive() {
+void CompoundGeometry::derive() {
   std::vector<geometry::PlacedSolid> solids;
   for (const CompoundChild& child : children) {
     const Mat3 rotation = to_matrix(child.orientation);
     placed.push_back({rotation, bounds_of(child, rotation)});
-    bounds = placed.size() == 1 ? placed.front().bounds : united(bounds, placed.back().bounds);
+    all_bounds =
+        placed.size() == 1 ? placed.front().bounds : united(all_bounds, placed.back().bounds);
     geometry::PlacedSolid part{
-        child.asset != nullptr ? *child.asset->solid() : geometry::solid_of(child.shape),
+        child.asset != nullptr ? *child.asset->geometry().solid() : geometry::solid_of(child.shape),
         child.position,
         child.orientation,
         {}};
@@ -162,19 +188,25 @@ void Compound::Data::derive() {
     part.weight = block_float(weight, part.solid.volume.exponent - Number::frac_bits);
     solids.push_back(part);
   }
-  if (is_in_range(bounds)) solid = geometry::combined(solids);
+  if (is_in_range(all_bounds)) whole = geometry::combined(solids);
 }
 
-geometry::Part Compound::Data::part(std::size_t index) const {
+geometry::Part CompoundGeometry::part(std::size_t index) const {
   const CompoundChild& child = children[index];
   return {static_cast<std::uint32_t>(index),
           child.shape,
-          child.asset != nullptr ? child.asset->polytope() : nullptr,
+          child.asset != nullptr ? child.asset->geometry().polytope() : nullptr,
           child.position,
           placed[index].rotation,
           child.surface ? &*child.surface : nullptr,
           {}};
 }
+
+const CompoundGeometry& geometry_of(const Compound& compound) {
+  return static_cast<const CompoundGeometry&>(compound.geometry());
+}
+
+}  // namespace
 
 std::string_view to_string(CompoundFault fault) {
   switch (fault) {
@@ -200,29 +232,28 @@ std::string_view to_string(CompoundFault fault) {
   return "unknown";
 }
 
-Compound::Compound(AssetId id, std::unique_ptr<const Data> data)
-    : Asset(ShapeKind::compound, id), data_(std::move(data)) {}
-Compound::~Compound() = default;
+Compound::Compound(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry)
+    : Asset(ShapeKind::compound, id, std::move(geometry)) {}
 
 CompoundResult Compound::build(std::span<const CompoundChild> children) {
   if (children.empty()) return {nullptr, CompoundFault::no_children};
   if (children.size() > k_max_compound_children) return {nullptr, CompoundFault::too_many_children};
-  auto data = std::make_unique<Data>();
+  auto made = std::make_unique<CompoundGeometry>();
   for (const CompoundChild& child : children) {
-    const auto index = static_cast<std::uint32_t>(data->children.size());
+    const auto index = static_cast<std::uint32_t>(made->children.size());
     if (const CompoundFault fault = fault_of(child); fault != CompoundFault::none) {
       return {nullptr, fault, index};
     }
-    data->children.push_back(child);
-    data->children.back().orientation = normalized_once(child.orientation);
+    made->children.push_back(child);
+    made->children.back().orientation = normalized_once(child.orientation);
   }
-  data->derive();
+  made->derive();
   for (std::size_t i = 0; i < children.size(); ++i) {
-    if (is_in_range(data->placed[i].bounds)) continue;
+    if (is_in_range(made->placed[i].bounds)) continue;
     return {nullptr, CompoundFault::coordinate_out_of_range, static_cast<std::uint32_t>(i)};
   }
-  const AssetId id = geometry::id_of(encode(data->children));
-  return {std::shared_ptr<const Compound>(new Compound(id, std::move(data)))};
+  const AssetId id = geometry::id_of(encode(made->children));
+  return {std::shared_ptr<const Compound>(new Compound(id, std::move(made)))};
 }
 
 Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
@@ -249,48 +280,10 @@ Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
 }
 
 std::span<const CompoundChild> Compound::children() const {
-  return data_->children;
+  return geometry_of(*this).children;
 }
 std::vector<std::byte> Compound::canonical_bytes() const {
-  return encode(data_->children);
-}
-const LocalBounds& Compound::bounds() const {
-  return data_->bounds;
-}
-const geometry::Solid* Compound::solid() const {
-  return &data_->solid;
-}
-
-namespace {
-
-// Children that the window meets within the visitor's present limit.
-template <class Data, class Window, class Limit, class Visitor>
-void visit_met(const Data& data, const Window& window, Limit most, Visitor& visitor) {
-  std::int64_t at = 0;
-  for (std::size_t i = 0; i < data.children.size(); ++i) {
-    if (window.meets(data.placed[i].bounds, window.limit_of(most), at))
-      most = visitor.visit(data.part(i));
-  }
-}
-
-}  // namespace
-
-void Compound::visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const {
-  for (std::size_t i = 0; i < data_->children.size(); ++i) {
-    if (geometry::overlap(region, data_->placed[i].bounds)) visitor.visit(data_->part(i));
-  }
-}
-
-void Compound::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                                  const Vec3<Length>& reach,
-                                  geometry::WayPartVisitor& visitor) const {
-  visit_met(*data_, geometry::RayWindow(origin, translation, reach), Unit::from_integer(1),
-            visitor);
-}
-
-void Compound::visit_parts_near(const Vec3<Length>& point, Length reach,
-                                geometry::NearPartVisitor& visitor) const {
-  visit_met(*data_, geometry::NearWindow(point), reach, visitor);
+  return encode(children());
 }
 
 }  // namespace lockstone

@@ -1,4 +1,4 @@
-// Memory for assets as worlds have changed them.
+// Memory for the geometry of assets as worlds have changed them.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/assets/height_tile.h"
+#include "core/geometry/convex/asset_geometry.h"
 
 namespace lockstone::geometry {
 
@@ -19,8 +20,8 @@ class EditedAssets {
   [[nodiscard]] virtual std::uint32_t slots() const = 0;
   /// Makes the one in a slot, in place of another: `base` with these tiles, of one owner, by key,
   /// and at least one. Both must outlive it. Allocates nothing.
-  virtual const Asset* set(std::uint32_t slot, const Asset& base,
-                           std::span<const HeightTile> tiles) = 0;
+  virtual const AssetGeometry* set(std::uint32_t slot, const AssetGeometry& base,
+                                   std::span<const HeightTile> tiles) = 0;
 
  protected:
   EditedAssets() = default;
@@ -35,8 +36,8 @@ class EditedSlots final : public EditedAssets {
   [[nodiscard]] std::uint32_t slots() const override {
     return static_cast<std::uint32_t>(slots_.size());
   }
-  const Asset* set(std::uint32_t slot, const Asset& base,
-                   std::span<const HeightTile> tiles) override {
+  const AssetGeometry* set(std::uint32_t slot, const AssetGeometry& base,
+                           std::span<const HeightTile> tiles) override {
     return &slots_[slot].emplace(base, tiles);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/assets/height_editing.h"
+#include "core/geometry/assets/height_field_geometry.h"
 #include "core/geometry/assets/height_field_walk.h"
 #include "core/geometry/mesh_contact/mesh_kernels.h"
 
@@ -18,23 +19,15 @@ HeightRange heights_of(const HeightFieldData& field, const HeightTile& tile) {
   return range;
 }
 
-const HeightField& height_field(const Asset& asset) {
-  LKS_ASSERT(asset.kind() == ShapeKind::height_field);
-  return static_cast<const HeightField&>(asset);
-}
-
 std::unique_ptr<EditedAssets> make_edited(std::uint32_t capacity) {
   return std::make_unique<EditedSlots<EditedHeightField>>(capacity);
-}
-
-const HeightFieldData& data_of(const Asset& asset) {
-  return height_field(asset).data();
 }
 
 }  // namespace
 
 const HeightEditing& height_editing() {
-  static constexpr HeightEditing k_editing{make_edited, data_of, original_tile, is_tile_of};
+  static constexpr HeightEditing k_editing{make_edited, height_field_data, original_tile,
+                                           is_tile_of};
   return k_editing;
 }
 
@@ -95,17 +88,10 @@ HeightRange EditedCells::block_range(int level, const GridPoint& at) const {
   return range;
 }
 
-EditedHeightField::EditedHeightField(const Asset& base, std::span<const HeightTile> tiles)
-    : Asset(ShapeKind::height_field, base.id()),
-      base_(height_field(base)),
-      cells_(base_.data(), tiles),
-      bounds_(base.bounds()) {
+EditedHeightField::EditedHeightField(const AssetGeometry& base, std::span<const HeightTile> tiles)
+    : cells_(height_field_data(base), tiles), bounds_(base.bounds()) {
   bounds_.lower.y = min(bounds_.lower.y, cells_.range().lowest);
   bounds_.upper.y = max(bounds_.upper.y, cells_.range().highest);
-}
-
-std::vector<std::byte> EditedHeightField::canonical_bytes() const {
-  return base_.canonical_bytes();
 }
 
 const MeshKernels* EditedHeightField::mesh_kernels() const {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/geometry/assets/height_tile.h"
+#include "core/geometry/convex/asset_geometry.h"
 
 namespace lockstone::geometry {
 
@@ -36,14 +37,12 @@ class EditedCells {
   HeightRange range_;  // of all tiles' heights
 };
 
-/// The asset of a body whose height field was changed. It has the id of the height field.
-class EditedHeightField final : public Asset {
+/// The geometry of a body whose height field was changed.
+class EditedHeightField final : public AssetGeometry {
  public:
-  /// `base` is a height field.
-  EditedHeightField(const Asset& base, std::span<const HeightTile> tiles);
+  /// `base` is a height field as it was built.
+  EditedHeightField(const AssetGeometry& base, std::span<const HeightTile> tiles);
 
-  /// Of the height field without its changes.
-  [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
   [[nodiscard]] const LocalBounds& bounds() const override { return bounds_; }
   [[nodiscard]] const MeshKernels* mesh_kernels() const override;
   void visit_parts(const LocalBounds& region, PartVisitor& visitor) const override;
@@ -53,7 +52,6 @@ class EditedHeightField final : public Asset {
                         NearPartVisitor& visitor) const override;
 
  private:
-  const HeightField& base_;
   EditedCells cells_;
   LocalBounds bounds_;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/geometry/assets/mesh_editing.h"
+#include "core/geometry/assets/mesh_geometry.h"
 #include "core/geometry/assets/mesh_walk.h"
 #include "core/geometry/mesh_contact/mesh_kernels.h"
 
@@ -38,32 +39,31 @@ class SwitchedTriangles {
   std::span<const HeightTile> tiles_;
 };
 
-/// The asset of a body some of whose groups are off. It has the id of the mesh.
-class EditedMesh final : public Asset {
+/// The geometry of a body some of whose groups are off.
+class EditedMesh final : public AssetGeometry {
  public:
-  EditedMesh(const Asset& base, std::span<const HeightTile> tiles)
-      : Asset(ShapeKind::mesh, base.id()), base_(base), triangles_(mesh_data(base), tiles) {}
+  EditedMesh(const AssetGeometry& base, std::span<const HeightTile> tiles)
+      : data_(mesh_data(base)), triangles_(data_, tiles) {}
 
-  [[nodiscard]] std::vector<std::byte> canonical_bytes() const override {
-    return base_.canonical_bytes();
+  [[nodiscard]] const LocalBounds& bounds() const override { return data_.tree.bounds(); }
+  [[nodiscard]] const MeshKernels* mesh_kernels() const override {
+    return &geometry::mesh_kernels();
   }
-  [[nodiscard]] const LocalBounds& bounds() const override { return base_.bounds(); }
-  [[nodiscard]] const MeshKernels* mesh_kernels() const override { return base_.mesh_kernels(); }
   void visit_parts(const LocalBounds& region, PartVisitor& visitor) const override {
-    visit_triangles(mesh_data(base_), triangles_, region, visitor);
+    visit_triangles(data_, triangles_, region, visitor);
   }
   void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
                           const Vec3<Length>& reach, WayPartVisitor& visitor) const override {
-    visit_nearest_first(mesh_data(base_), triangles_, RayWindow(origin, translation, reach),
+    visit_nearest_first(data_, triangles_, RayWindow(origin, translation, reach),
                         Unit::from_integer(1), visitor);
   }
   void visit_parts_near(const Vec3<Length>& point, Length reach,
                         NearPartVisitor& visitor) const override {
-    visit_nearest_first(mesh_data(base_), triangles_, NearWindow(point), reach, visitor);
+    visit_nearest_first(data_, triangles_, NearWindow(point), reach, visitor);
   }
 
  private:
-  const Asset& base_;
+  const MeshData& data_;
   SwitchedTriangles triangles_;
 };
 
@@ -71,12 +71,12 @@ std::unique_ptr<EditedAssets> make_edited_meshes(std::uint32_t capacity) {
   return std::make_unique<EditedSlots<EditedMesh>>(capacity);
 }
 
-const LocalBounds* bounds_of_group(const Asset& asset, std::uint32_t group) {
-  const MeshGroup* found = find_group(mesh_data(asset), group);
+const LocalBounds* bounds_of_group(const AssetGeometry& geometry, std::uint32_t group) {
+  const MeshGroup* found = find_group(mesh_data(geometry), group);
   return found == nullptr ? nullptr : &found->bounds;
 }
 
-bool is_tile_of_groups(const Asset& asset, const HeightTile& tile) {
+bool is_tile_of_groups(const AssetGeometry& geometry, const HeightTile& tile) {
   HeightTile plain;
   plain.owner = tile.owner;
   plain.row = k_group_row;
@@ -85,7 +85,7 @@ bool is_tile_of_groups(const Asset& asset, const HeightTile& tile) {
   if (tile != plain || tile.holes == 0) return false;
   for (std::size_t place = 0; place < HeightTile::k_samples; ++place) {
     const auto group = static_cast<std::uint32_t>(tile.column * HeightTile::k_samples + place);
-    if (tile.is_hole(place) && bounds_of_group(asset, group) == nullptr) return false;
+    if (tile.is_hole(place) && bounds_of_group(geometry, group) == nullptr) return false;
   }
   return true;
 }

@@ -8,10 +8,10 @@
 
 namespace lockstone::geometry {
 
-/// The asset of each function is a HeightField.
+/// The geometry is that of a height field as it was built.
 struct HeightEditing {
   std::unique_ptr<EditedAssets> (*make_edited)(std::uint32_t capacity);
-  const HeightFieldData& (*data_of)(const Asset& asset);
+  const HeightFieldData& (*data_of)(const AssetGeometry& geometry);
   HeightTile (*original)(const HeightFieldData& field, const HeightTileKey& key);
   bool (*is_tile)(const HeightFieldData& field, const HeightTile& tile);
 };

@@ -3,9 +3,7 @@
 #include <lockstone/height_field.h>
 
 #include "core/geometry/assets/asset_frame.h"
-#include "core/geometry/assets/height_editing.h"
-#include "core/geometry/assets/height_field_data.h"
-#include "core/geometry/mesh_contact/mesh_kernels.h"
+#include "core/geometry/assets/height_field_geometry.h"
 
 namespace lockstone {
 namespace geometry {
@@ -148,10 +146,8 @@ std::string_view to_string(HeightFieldFault fault) {
   return "unknown";
 }
 
-HeightField::HeightField(AssetId id, std::unique_ptr<const geometry::HeightFieldData> data)
-    : Asset(ShapeKind::height_field, id), data_(std::move(data)) {}
-
-HeightField::~HeightField() = default;
+HeightField::HeightField(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry)
+    : Asset(ShapeKind::height_field, id, std::move(geometry)) {}
 
 HeightFieldResult HeightField::build(const HeightFieldDef& def) {
   HeightFieldResult result;
@@ -159,40 +155,29 @@ HeightFieldResult HeightField::build(const HeightFieldDef& def) {
   result.fault = refusal.fault;
   result.index = refusal.index;
   if (result.fault != HeightFieldFault::none) return result;
-  auto data = std::make_unique<const geometry::HeightFieldData>(geometry::make_data(def));
-  const AssetId id = geometry::id_of(geometry::encode_height_field(*data));
-  result.height_field.reset(new HeightField(id, std::move(data)));
+  auto made = std::make_unique<const geometry::HeightFieldGeometry>(geometry::make_data(def));
+  const AssetId id = geometry::id_of(geometry::encode_height_field(made->data()));
+  result.height_field.reset(new HeightField(id, std::move(made)));
   return result;
 }
 
 std::uint32_t HeightField::columns() const {
-  return static_cast<std::uint32_t>(data_->columns);
+  return static_cast<std::uint32_t>(geometry::height_field_data(geometry()).columns);
 }
 
 std::uint32_t HeightField::rows() const {
-  return static_cast<std::uint32_t>(data_->rows);
+  return static_cast<std::uint32_t>(geometry::height_field_data(geometry()).rows);
 }
 
 std::size_t HeightField::memory_bytes() const {
-  return sizeof(*this) + sizeof(*data_) + data_->heights.size() * sizeof(Length) +
-         data_->holes.size() + data_->cell_surfaces.size() +
-         data_->surfaces.size() * sizeof(Surface) + data_->pyramid.memory_bytes();
+  const geometry::HeightFieldData& data = geometry::height_field_data(geometry());
+  return sizeof(*this) + sizeof(geometry::HeightFieldGeometry) +
+         data.heights.size() * sizeof(Length) + data.holes.size() + data.cell_surfaces.size() +
+         data.surfaces.size() * sizeof(Surface) + data.pyramid.memory_bytes();
 }
 
 std::vector<std::byte> HeightField::canonical_bytes() const {
-  return geometry::encode_height_field(*data_);
-}
-
-const geometry::LocalBounds& HeightField::bounds() const {
-  return data_->bounds;
-}
-
-const geometry::MeshKernels* HeightField::mesh_kernels() const {
-  return &geometry::mesh_kernels();
-}
-
-const geometry::HeightEditing* HeightField::height_editing() const {
-  return &geometry::height_editing();
+  return geometry::encode_height_field(geometry::height_field_data(geometry()));
 }
 
 }  // namespace lockstone

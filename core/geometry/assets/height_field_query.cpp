@@ -1,22 +1,33 @@
 // Which cells of a height field a region or a ray meets.
+#include "core/geometry/assets/height_editing.h"
+#include "core/geometry/assets/height_field_geometry.h"
 #include "core/geometry/assets/height_field_walk.h"
+#include "core/geometry/mesh_contact/mesh_kernels.h"
 
-namespace lockstone {
+namespace lockstone::geometry {
 
-void HeightField::visit_parts(const geometry::LocalBounds& region,
-                              geometry::PartVisitor& visitor) const {
-  geometry::visit_cells(*data_, region, visitor);
+const MeshKernels* HeightFieldGeometry::mesh_kernels() const {
+  return &geometry::mesh_kernels();
 }
 
-void HeightField::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                                     const Vec3<Length>& reach,
-                                     geometry::WayPartVisitor& visitor) const {
-  geometry::visit_cells_on_way(*data_, origin, translation, reach, visitor);
+const HeightEditing* HeightFieldGeometry::height_editing() const {
+  return &geometry::height_editing();
 }
 
-void HeightField::visit_parts_near(const Vec3<Length>& point, Length reach,
-                                   geometry::NearPartVisitor& visitor) const {
-  geometry::visit_cells_near(*data_, point, reach, visitor);
+void HeightFieldGeometry::visit_parts(const LocalBounds& region, PartVisitor& visitor) const {
+  visit_cells(data_, region, visitor);
 }
 
-}  // namespace lockstone
+void HeightFieldGeometry::visit_parts_on_way(const Vec3<Length>& origin,
+                                             const Vec3<Length>& translation,
+                                             const Vec3<Length>& reach,
+                                             WayPartVisitor& visitor) const {
+  visit_cells_on_way(data_, origin, translation, reach, visitor);
+}
+
+void HeightFieldGeometry::visit_parts_near(const Vec3<Length>& point, Length reach,
+                                           NearPartVisitor& visitor) const {
+  visit_cells_near(data_, point, reach, visitor);
+}
+
+}  // namespace lockstone::geometry

@@ -7,8 +7,8 @@
 
 #include "core/geometry/assets/asset_frame.h"
 #include "core/geometry/assets/hull_rounding.h"
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/hull_faces.h"
-#include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/polytope_columns.h"
 #include "core/geometry/convex/slab_tests.h"
@@ -27,21 +27,37 @@ using geometry::PolytopeFace;
 
 static_assert(k_max_hull_vertices == geometry::k_max_polytope_vertices);
 
-struct Hull::Data {
+namespace {
+
+struct HullGeometry final : geometry::AssetGeometry {
+  AssetId id;
   std::vector<Vec3<Length>> vertices;
   std::vector<PolytopeFace> faces;
   std::vector<HalfEdge> edges;
   geometry::PolytopeColumns columns;
-  geometry::Polytope polytope;
-  LocalBounds bounds;
-  geometry::Solid solid;
+  geometry::Polytope surface;
+  LocalBounds box;
+  geometry::Solid mass;
   geometry::FacetCorrection facets;
   Length tolerance{};  // as asked for
 
   bool round(Length radius, const std::vector<Loop>& loops);
+  [[nodiscard]] geometry::Part part() const;
+
+  [[nodiscard]] const LocalBounds& bounds() const override { return box; }
+  [[nodiscard]] const geometry::Solid* solid() const override { return &mass; }
+  [[nodiscard]] const geometry::Polytope* polytope() const override { return &surface; }
+  void visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const override;
+  void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                          const Vec3<Length>& reach,
+                          geometry::WayPartVisitor& visitor) const override;
+  void visit_parts_near(const Vec3<Length>& point, Length reach,
+                        geometry::NearPartVisitor& visitor) const override;
 };
 
-namespace {
+const HullGeometry& geometry_of(const Hull& hull) {
+  return static_cast<const HullGeometry&>(hull.geometry());
+}
 
 constexpr std::uint16_t k_hull_version = 1;
 constexpr std::uint16_t k_rounded_hull_version = 2;  // ends with the radius
@@ -243,57 +259,82 @@ std::vector<std::byte> encode(std::span<const Vec3<Length>> vertices, Length tol
   return bytes;
 }
 
-}  // namespace
-
 /// Surrounds the polytope by a radius; false when the solid becomes too large.
-bool Hull::Data::round(Length radius, const std::vector<Loop>& loops) {
-  polytope.radius = radius;
+bool HullGeometry::round(Length radius, const std::vector<Loop>& loops) {
+  surface.radius = radius;
   const geometry::HullRounding& rounding = *geometry::hull_rounding();
-  polytope.kernels = &rounding.kernels;
-  const auto rounded = rounding.solid_of(polytope);
+  surface.kernels = &rounding.kernels;
+  const auto rounded = rounding.solid_of(surface);
   if (!rounded) return false;
-  solid = *rounded;
-  solid.inner_radius = radius + inner_radius_of(loops, faces, vertices, solid.centre);
-  polytope.interior = solid.centre;
-  facets = rounding.facets_of(polytope, solid.volume);
-  polytope.facets = &facets;
+  mass = *rounded;
+  mass.inner_radius = radius + inner_radius_of(loops, faces, vertices, mass.centre);
+  surface.interior = mass.centre;
+  facets = rounding.facets_of(surface, mass.volume);
+  surface.facets = &facets;
   return true;
 }
 
-Hull::Hull(AssetId id, std::unique_ptr<const Data> data)
-    : Asset(ShapeKind::hull, id), data_(std::move(data)) {}
+geometry::Part HullGeometry::part() const {
+  geometry::Part part;
+  part.shape = {ShapeKind::hull, {}, id};
+  part.polytope = &surface;
+  return part;
+}
 
-Hull::~Hull() = default;
+void HullGeometry::visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const {
+  if (overlap(region, box)) visitor.visit(part());
+}
+
+void HullGeometry::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                                      const Vec3<Length>& reach,
+                                      geometry::WayPartVisitor& visitor) const {
+  std::int64_t at = 0;
+  const geometry::RayWindow window(origin, translation, reach);
+  if (window.meets(box, window.limit_of(Unit::from_integer(1)), at)) visitor.visit(part());
+}
+
+void HullGeometry::visit_parts_near(const Vec3<Length>& point, Length reach,
+                                    geometry::NearPartVisitor& visitor) const {
+  std::int64_t at = 0;
+  const geometry::NearWindow window(point);
+  if (window.meets(box, window.limit_of(reach), at)) visitor.visit(part());
+}
+
+}  // namespace
+
+Hull::Hull(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry)
+    : Asset(ShapeKind::hull, id, std::move(geometry)) {}
 
 HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& options) {
   if (const HullFault fault = fault_of(points, options); fault != HullFault::none)
     return {nullptr, fault, {}};
-  auto data = std::make_unique<Data>();
-  data->vertices.assign(points.begin(), points.end());
-  sort_unique(data->vertices);
-  const Boundary surface = reduce(data->vertices, options);
-  if (surface.fault != HullFault::none) return {nullptr, surface.fault, {}};
-  data->faces = planes_of(surface.faces, data->vertices);
-  if (thickness_of(data->faces, data->vertices) < geometry::fine(k_min_hull_thickness))
+  auto made = std::make_unique<HullGeometry>();
+  made->vertices.assign(points.begin(), points.end());
+  sort_unique(made->vertices);
+  const Boundary boundary = reduce(made->vertices, options);
+  if (boundary.fault != HullFault::none) return {nullptr, boundary.fault, {}};
+  made->faces = planes_of(boundary.faces, made->vertices);
+  if (thickness_of(made->faces, made->vertices) < geometry::fine(k_min_hull_thickness))
     return {nullptr, HullFault::flat, {}};
-  const auto solid = geometry::solid_of(data->vertices, surface.triangles);
+  const auto solid = geometry::solid_of(made->vertices, boundary.triangles);
   if (!solid) return {nullptr, HullFault::too_large, {}};
-  data->solid = *solid;
-  data->solid.inner_radius =
-      inner_radius_of(surface.faces, data->faces, data->vertices, solid->centre);
-  data->edges = half_edges_of(surface.faces, data->vertices.size());
-  data->bounds = bounds_of(data->vertices, options.radius);
-  data->tolerance = options.tolerance;
-  data->polytope = {data->vertices, data->faces, data->edges, solid->centre,
-                    &geometry::polytope_kernels()};
-  data->columns.fill(data->vertices, data->faces);
-  data->polytope.wide = &data->columns.view();
-  data->polytope.unevenness = unevenness_of(surface.faces, data->faces, data->vertices);
-  if (options.radius > Length{} && !data->round(options.radius, surface.faces))
+  made->mass = *solid;
+  made->mass.inner_radius =
+      inner_radius_of(boundary.faces, made->faces, made->vertices, solid->centre);
+  made->edges = half_edges_of(boundary.faces, made->vertices.size());
+  made->box = bounds_of(made->vertices, options.radius);
+  made->tolerance = options.tolerance;
+  made->surface = {made->vertices, made->faces, made->edges, solid->centre,
+                   &geometry::polytope_kernels()};
+  made->columns.fill(made->vertices, made->faces);
+  made->surface.wide = &made->columns.view();
+  made->surface.unevenness = unevenness_of(boundary.faces, made->faces, made->vertices);
+  if (options.radius > Length{} && !made->round(options.radius, boundary.faces))
     return {nullptr, HullFault::too_large, {}};
-  const AssetId id = geometry::id_of(encode(data->vertices, options.tolerance, options.radius));
-  const Length deviation = deviation_of(data->faces, points);
-  return {std::shared_ptr<const Hull>(new Hull(id, std::move(data))), HullFault::none, deviation};
+  made->id = geometry::id_of(encode(made->vertices, options.tolerance, options.radius));
+  const AssetId id = made->id;
+  const Length deviation = deviation_of(made->faces, points);
+  return {std::shared_ptr<const Hull>(new Hull(id, std::move(made))), HullFault::none, deviation};
 }
 
 Result<std::shared_ptr<const Hull>> Hull::from_bytes(ByteView bytes) {
@@ -325,71 +366,31 @@ Result<std::shared_ptr<const Hull>> Hull::from_bytes(ByteView bytes) {
 }
 
 Length Hull::radius() const {
-  return data_->polytope.radius;
+  return geometry_of(*this).surface.radius;
 }
 
 std::span<const Vec3<Length>> Hull::vertices() const {
-  return data_->vertices;
+  return geometry_of(*this).vertices;
 }
 
 int Hull::face_count() const {
-  return static_cast<int>(data_->faces.size());
+  return static_cast<int>(geometry_of(*this).faces.size());
 }
 
 std::vector<int> Hull::face_vertices(int face) const {
   if (face < 0 || face >= face_count())
     misused("Hull::face_vertices: the face must be 0 … face_count() - 1");
-  const PolytopeFace& loop = data_->faces[static_cast<std::size_t>(face)];
+  const HullGeometry& hull = geometry_of(*this);
+  const PolytopeFace& loop = hull.faces[static_cast<std::size_t>(face)];
   std::vector<int> indices;
-  for (const HalfEdge& edge : std::span(data_->edges).subspan(loop.first_edge, loop.edge_count))
+  for (const HalfEdge& edge : std::span(hull.edges).subspan(loop.first_edge, loop.edge_count))
     indices.push_back(edge.origin);
   return indices;
 }
 
 std::vector<std::byte> Hull::canonical_bytes() const {
-  return encode(data_->vertices, data_->tolerance, data_->polytope.radius);
-}
-
-const LocalBounds& Hull::bounds() const {
-  return data_->bounds;
-}
-
-const geometry::Solid* Hull::solid() const {
-  return &data_->solid;
-}
-
-const geometry::Polytope* Hull::polytope() const {
-  return &data_->polytope;
-}
-
-namespace {
-
-geometry::Part part_of(const Hull& hull) {
-  geometry::Part part;
-  part.shape = hull.shape();
-  part.polytope = hull.polytope();
-  return part;
-}
-
-}  // namespace
-
-void Hull::visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const {
-  if (overlap(region, data_->bounds)) visitor.visit(part_of(*this));
-}
-
-void Hull::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                              const Vec3<Length>& reach, geometry::WayPartVisitor& visitor) const {
-  std::int64_t at = 0;
-  const geometry::RayWindow window(origin, translation, reach);
-  if (window.meets(data_->bounds, window.limit_of(Unit::from_integer(1)), at))
-    visitor.visit(part_of(*this));
-}
-
-void Hull::visit_parts_near(const Vec3<Length>& point, Length reach,
-                            geometry::NearPartVisitor& visitor) const {
-  std::int64_t at = 0;
-  const geometry::NearWindow window(point);
-  if (window.meets(data_->bounds, window.limit_of(reach), at)) visitor.visit(part_of(*this));
+  const HullGeometry& hull = geometry_of(*this);
+  return encode(hull.vertices, hull.tolerance, hull.surface.radius);
 }
 
 std::string_view to_string(HullFault fault) {

@@ -3,8 +3,8 @@
 #include <lockstone/mesh.h>
 
 #include "core/geometry/assets/asset_frame.h"
-#include "core/geometry/assets/mesh_data.h"
 #include "core/geometry/assets/mesh_editing.h"
+#include "core/geometry/assets/mesh_geometry.h"
 #include "core/geometry/assets/mesh_walk.h"
 #include "core/geometry/mesh_contact/mesh_kernels.h"
 
@@ -159,9 +159,30 @@ TriangleSoup canonical_soup(const MeshData& data) {
   return soup;
 }
 
-}  // namespace geometry
+const MeshKernels* MeshGeometry::mesh_kernels() const {
+  return &geometry::mesh_kernels();
+}
 
-using geometry::MeshData;
+const MeshEditing* MeshGeometry::mesh_editing() const {
+  return data_.groups.empty() ? nullptr : &geometry::mesh_editing();
+}
+
+void MeshGeometry::visit_parts(const LocalBounds& region, PartVisitor& visitor) const {
+  visit_triangles(data_, AllTriangles{data_}, region, visitor);
+}
+
+void MeshGeometry::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                                      const Vec3<Length>& reach, WayPartVisitor& visitor) const {
+  visit_nearest_first(data_, AllTriangles{data_}, RayWindow(origin, translation, reach),
+                      Unit::from_integer(1), visitor);
+}
+
+void MeshGeometry::visit_parts_near(const Vec3<Length>& point, Length reach,
+                                    NearPartVisitor& visitor) const {
+  visit_nearest_first(data_, AllTriangles{data_}, NearWindow(point), reach, visitor);
+}
+
+}  // namespace geometry
 
 std::string_view to_string(MeshFault fault) {
   switch (fault) {
@@ -187,10 +208,8 @@ std::string_view to_string(MeshFault fault) {
   return "unknown";
 }
 
-Mesh::Mesh(AssetId id, std::unique_ptr<const MeshData> data)
-    : Asset(ShapeKind::mesh, id), data_(std::move(data)) {}
-
-Mesh::~Mesh() = default;
+Mesh::Mesh(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry)
+    : Asset(ShapeKind::mesh, id, std::move(geometry)) {}
 
 MeshResult Mesh::build(const MeshDef& def) {
   MeshResult result;
@@ -211,66 +230,34 @@ MeshResult Mesh::build(const MeshDef& def) {
     return result;
   }
   const AssetId id = geometry::id_of(geometry::encode_mesh(soup, def.surfaces, def.flat_angle));
-  auto data = std::make_unique<const MeshData>(geometry::make_mesh_data(
-      std::move(soup), {def.surfaces.begin(), def.surfaces.end()}, def.flat_angle));
-  result.mesh.reset(new Mesh(id, std::move(data)));
+  result.mesh.reset(new Mesh(
+      id, std::make_unique<const geometry::MeshGeometry>(geometry::make_mesh_data(
+              std::move(soup), {def.surfaces.begin(), def.surfaces.end()}, def.flat_angle))));
   return result;
 }
 
 std::uint32_t Mesh::triangle_count() const {
-  return static_cast<std::uint32_t>(data_->soup.triangles.size());
+  return static_cast<std::uint32_t>(geometry::mesh_data(geometry()).soup.triangles.size());
 }
 
 std::uint32_t Mesh::vertex_count() const {
-  return static_cast<std::uint32_t>(data_->soup.vertices.size());
+  return static_cast<std::uint32_t>(geometry::mesh_data(geometry()).soup.vertices.size());
 }
 
 std::size_t Mesh::memory_bytes() const {
-  const geometry::TriangleSoup& soup = data_->soup;
-  return sizeof(*this) + sizeof(*data_) + soup.vertices.size() * sizeof(soup.vertices[0]) +
+  const geometry::MeshData& data = geometry::mesh_data(geometry());
+  const geometry::TriangleSoup& soup = data.soup;
+  return sizeof(*this) + sizeof(geometry::MeshGeometry) +
+         soup.vertices.size() * sizeof(soup.vertices[0]) +
          soup.triangles.size() * sizeof(soup.triangles[0]) + soup.surfaces.size() +
-         2 * soup.groups.size() + data_->groups.size() * sizeof(geometry::MeshGroup) +
-         data_->group_edges.size() * sizeof(geometry::SharedEdge) +
-         data_->surfaces.size() * sizeof(Surface) + data_->tree.memory_bytes();
+         2 * soup.groups.size() + data.groups.size() * sizeof(geometry::MeshGroup) +
+         data.group_edges.size() * sizeof(geometry::SharedEdge) +
+         data.surfaces.size() * sizeof(Surface) + data.tree.memory_bytes();
 }
 
 std::vector<std::byte> Mesh::canonical_bytes() const {
-  return geometry::encode_mesh(geometry::canonical_soup(*data_), data_->surfaces,
-                               data_->flat_angle);
-}
-
-const geometry::LocalBounds& Mesh::bounds() const {
-  return data_->tree.bounds();
-}
-
-const geometry::MeshKernels* Mesh::mesh_kernels() const {
-  return &geometry::mesh_kernels();
-}
-
-const geometry::MeshEditing* Mesh::mesh_editing() const {
-  return data_->groups.empty() ? nullptr : &geometry::mesh_editing();
-}
-
-const MeshData& geometry::mesh_data(const Asset& asset) {
-  LKS_ASSERT(asset.kind() == ShapeKind::mesh);
-  return *static_cast<const Mesh&>(asset).data_;
-}
-
-void Mesh::visit_parts(const geometry::LocalBounds& region, geometry::PartVisitor& visitor) const {
-  geometry::visit_triangles(*data_, geometry::AllTriangles{*data_}, region, visitor);
-}
-
-void Mesh::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                              const Vec3<Length>& reach, geometry::WayPartVisitor& visitor) const {
-  geometry::visit_nearest_first(*data_, geometry::AllTriangles{*data_},
-                                geometry::RayWindow(origin, translation, reach),
-                                Unit::from_integer(1), visitor);
-}
-
-void Mesh::visit_parts_near(const Vec3<Length>& point, Length reach,
-                            geometry::NearPartVisitor& visitor) const {
-  geometry::visit_nearest_first(*data_, geometry::AllTriangles{*data_}, geometry::NearWindow(point),
-                                reach, visitor);
+  const geometry::MeshData& data = geometry::mesh_data(geometry());
+  return geometry::encode_mesh(geometry::canonical_soup(data), data.surfaces, data.flat_angle);
 }
 
 }  // namespace lockstone

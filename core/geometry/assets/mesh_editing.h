@@ -19,13 +19,13 @@ inline constexpr std::uint16_t k_group_row = 0xffff;
   return {owner, k_group_row, static_cast<std::uint16_t>(group / HeightTile::k_samples)};
 }
 
-/// The asset of each function is a mesh of groups.
+/// The geometry is that of a mesh of groups as it was built.
 struct MeshEditing {
   std::unique_ptr<EditedAssets> (*make_edited)(std::uint32_t capacity);
   /// Of the triangles of a group; null of one without triangles.
-  const LocalBounds* (*bounds_of)(const Asset& asset, std::uint32_t group);
+  const LocalBounds* (*bounds_of)(const AssetGeometry& geometry, std::uint32_t group);
   /// Whether a world can have it: groups that exist, of which one is off.
-  bool (*is_tile)(const Asset& asset, const HeightTile& tile);
+  bool (*is_tile)(const AssetGeometry& geometry, const HeightTile& tile);
 };
 
 /// The one table.

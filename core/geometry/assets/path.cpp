@@ -4,7 +4,7 @@
 
 #include "core/geometry/assets/asset_frame.h"
 #include "core/geometry/assets/spline_curve.h"
-#include "core/geometry/convex/parts.h"
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/math/roots.h"
 #include "core/math/rotation_log.h"
 
@@ -73,15 +73,38 @@ std::string_view to_string(PathFault fault) {
   return "unknown";
 }
 
-struct Path::Data {
-  std::vector<PathPoint> points;
-  geometry::SplineCurve curve;
-  geometry::LocalBounds bounds;
+namespace {
+
+// It has no parts that anything could meet.
+class PathGeometry final : public geometry::AssetGeometry {
+ public:
+  PathGeometry(std::span<const PathPoint> points, bool closed, const geometry::LocalBounds& bounds)
+      : points_(points.begin(), points.end()), curve_(points, closed), bounds_(bounds) {}
+
+  [[nodiscard]] std::span<const PathPoint> points() const { return points_; }
+  [[nodiscard]] const geometry::SplineCurve& spline() const { return curve_; }
+
+  [[nodiscard]] const geometry::LocalBounds& bounds() const override { return bounds_; }
+  [[nodiscard]] const geometry::Curve* curve() const override { return &curve_; }
+  void visit_parts(const geometry::LocalBounds&, geometry::PartVisitor&) const override {}
+  void visit_parts_on_way(const Vec3<Length>&, const Vec3<Length>&, const Vec3<Length>&,
+                          geometry::WayPartVisitor&) const override {}
+  void visit_parts_near(const Vec3<Length>&, Length, geometry::NearPartVisitor&) const override {}
+
+ private:
+  std::vector<PathPoint> points_;
+  geometry::SplineCurve curve_;
+  geometry::LocalBounds bounds_;
 };
 
-Path::Path(AssetId id, std::unique_ptr<const Data> data)
-    : Asset(ShapeKind::path, id), data_(std::move(data)) {}
-Path::~Path() = default;
+const PathGeometry& geometry_of(const Path& path) {
+  return static_cast<const PathGeometry&>(path.geometry());
+}
+
+}  // namespace
+
+Path::Path(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry)
+    : Asset(ShapeKind::path, id, std::move(geometry)) {}
 
 PathResult Path::build(std::span<const PathPoint> points, bool closed) {
   if (points.size() < (closed ? 3U : 2U)) return refused(PathFault::too_few_points);
@@ -95,13 +118,12 @@ PathResult Path::build(std::span<const PathPoint> points, bool closed) {
       bounds.upper[axis] = max(bounds.upper[axis], points[i].position[axis]);
     }
   }
-  auto data = std::make_unique<Data>(
-      Data{{points.begin(), points.end()}, geometry::SplineCurve(points, closed), bounds});
+  auto made = std::make_unique<const PathGeometry>(points, closed, bounds);
   std::uint32_t point = 0;
-  if (const PathFault fault = data->curve.fault(point); fault != PathFault::none)
+  if (const PathFault fault = made->spline().fault(point); fault != PathFault::none)
     return refused(fault, point);
   const AssetId id = geometry::id_of(encode(points, closed));
-  return {std::shared_ptr<const Path>(new Path(id, std::move(data)))};
+  return {std::shared_ptr<const Path>(new Path(id, std::move(made)))};
 }
 
 Result<std::shared_ptr<const Path>> Path::from_bytes(ByteView bytes) {
@@ -126,32 +148,20 @@ Result<std::shared_ptr<const Path>> Path::from_bytes(ByteView bytes) {
 }
 
 std::span<const PathPoint> Path::points() const {
-  return data_->points;
+  return geometry_of(*this).points();
 }
 bool Path::is_closed() const {
-  return data_->curve.is_closed();
+  return geometry_of(*this).spline().is_closed();
 }
 Length Path::length() const {
-  return rounded<Length>(data_->curve.length());
+  return rounded<Length>(geometry_of(*this).spline().length());
 }
 Transform Path::at(Length distance) const {
-  const geometry::CurvePlace place = data_->curve.at(distance);
+  const geometry::CurvePlace place = geometry_of(*this).spline().at(distance);
   return {place.point, orientation_of(place.frame)};
 }
 std::vector<std::byte> Path::canonical_bytes() const {
-  return encode(data_->points, is_closed());
+  return encode(points(), is_closed());
 }
-const geometry::LocalBounds& Path::bounds() const {
-  return data_->bounds;
-}
-const geometry::Curve* Path::curve() const {
-  return &data_->curve;
-}
-
-// It has no parts that anything could meet.
-void Path::visit_parts(const geometry::LocalBounds&, geometry::PartVisitor&) const {}
-void Path::visit_parts_on_way(const Vec3<Length>&, const Vec3<Length>&, const Vec3<Length>&,
-                              geometry::WayPartVisitor&) const {}
-void Path::visit_parts_near(const Vec3<Length>&, Length, geometry::NearPartVisitor&) const {}
 
 }  // namespace lockstone

@@ -1,5 +1,6 @@
 #include "core/geometry/mesh_contact/front_crossing.h"
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/mesh_contact/face_plane.h"
 #include "core/geometry/mesh_contact/front_crossing_search.h"
 #include "core/geometry/numeric/ray_ratio.h"
@@ -44,7 +45,7 @@ class CrossingSearch final : public PartVisitor {
 
 }  // namespace
 
-FrontCrossing first_front_crossing(const Asset& asset, const PointWay& way) {
+FrontCrossing first_front_crossing(const AssetGeometry& asset, const PointWay& way) {
   LocalBounds region;
   for (int i = 0; i < 3; ++i) {
     region.lower[i] = min(way.from[i], way.to[i]) - k_beside;

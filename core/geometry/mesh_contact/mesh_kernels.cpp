@@ -1,5 +1,6 @@
 #include "core/geometry/mesh_contact/mesh_kernels.h"
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/dispatch/polytope_kernels.h"
 #include "core/geometry/mesh_contact/front_crossing_search.h"
 
@@ -22,8 +23,8 @@ class Collect final : public PartVisitor {
   TriangleContacts& out_;
 };
 
-void collide_triangles(const Asset& asset, const MeshContactFrame& frame, const LocalBounds& region,
-                       TriangleContacts& scratch, MeshManifolds& out) {
+void collide_triangles(const AssetGeometry& asset, const MeshContactFrame& frame,
+                       const LocalBounds& region, TriangleContacts& scratch, MeshManifolds& out) {
   scratch.clear();
   Collect collect(frame, scratch);
   asset.visit_parts(region, collect);

@@ -12,11 +12,11 @@ namespace lockstone::geometry {
 struct MeshKernels {
   /// The contacts of a convex shape with an asset's triangles, from the asset (A) to the shape (B).
   /// `region`, in the asset's frame, holds all that can come within the margin.
-  void (*collide)(const Asset& asset, const MeshContactFrame& frame, const LocalBounds& region,
-                  TriangleContacts& scratch, MeshManifolds& out);
+  void (*collide)(const AssetGeometry& asset, const MeshContactFrame& frame,
+                  const LocalBounds& region, TriangleContacts& scratch, MeshManifolds& out);
 
   /// See first_front_crossing.
-  FrontCrossing (*first_crossing)(const Asset& asset, const PointWay& way);
+  FrontCrossing (*first_crossing)(const AssetGeometry& asset, const PointWay& way);
 };
 
 /// The one table.

@@ -16,17 +16,8 @@
 namespace lockstone {
 
 namespace geometry {
-struct HeightEditing;
-class Curve;
-struct LocalBounds;
-struct MeshEditing;
-struct MeshKernels;
-struct Polytope;
-struct Solid;
-class PartVisitor;
-class NearPartVisitor;
-class WayPartVisitor;
-}  // namespace geometry
+class AssetGeometry;
+}
 
 /// Coordinates of an asset in its own frame lie within ±512 m.
 inline constexpr Length k_max_asset_coordinate = Length::from_integer(512);
@@ -38,7 +29,7 @@ inline constexpr std::uint8_t k_own_surface = 255;
 /// Geometry made once by a builder (Hull, Mesh, HeightField, Compound) and never changed.
 class Asset {
  public:
-  virtual ~Asset() = default;
+  virtual ~Asset();
   Asset(const Asset&) = delete;
   Asset& operator=(const Asset&) = delete;
 
@@ -52,52 +43,16 @@ class Asset {
   /// hash. It holds no derived data: the builder derives that again.
   [[nodiscard]] virtual std::vector<std::byte> canonical_bytes() const = 0;
 
-  // For the engine alone, in types that are no part of the interface
-  // -----------------------------------------------------------------------------------------------
-
-  [[nodiscard]] virtual const geometry::LocalBounds& bounds() const = 0;
-
-  /// Mass distribution; null for assets that no dynamic body can have.
-  [[nodiscard]] virtual const geometry::Solid* solid() const { return nullptr; }
-
-  /// The polyhedron when the asset is a single convex one.
-  [[nodiscard]] virtual const geometry::Polytope* polytope() const { return nullptr; }
-
-  /// The kernels that collide with its triangles; null for an asset without triangles.
-  [[nodiscard]] virtual const geometry::MeshKernels* mesh_kernels() const { return nullptr; }
-
-  /// The functions that change its heights in a world; null for an asset that is no height field.
-  [[nodiscard]] virtual const geometry::HeightEditing* height_editing() const { return nullptr; }
-
-  /// The functions that switch its groups in a world; null for an asset that is no mesh of groups.
-  [[nodiscard]] virtual const geometry::MeshEditing* mesh_editing() const { return nullptr; }
-
-  /// The curve of a path; null for other assets.
-  [[nodiscard]] virtual const geometry::Curve* curve() const { return nullptr; }
-
-  /// Calls the visitor for every part whose bounds meet `region` (asset frame, closed), in
-  /// ascending order of part.
-  virtual void visit_parts(const geometry::LocalBounds& region,
-                           geometry::PartVisitor& visitor) const = 0;
-
-  /// Calls the visitor for parts whose bounds a box meets within the fraction of its way that the
-  /// visitor still asks for; order not promised. The box, of half extents `reach`, goes from
-  /// `origin` by `translation`, asset frame; without extents it is a ray.
-  virtual void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                                  const Vec3<Length>& reach,
-                                  geometry::WayPartVisitor& visitor) const = 0;
-
-  /// Calls the visitor for parts whose bounds come as near to `point` (asset frame) as `reach`, and
-  /// then as near as the visitor still asks for; order not promised.
-  virtual void visit_parts_near(const Vec3<Length>& point, Length reach,
-                                geometry::NearPartVisitor& visitor) const = 0;
+  /// For the engine alone: its type is no part of the interface.
+  [[nodiscard]] const geometry::AssetGeometry& geometry() const { return *geometry_; }
 
  protected:
-  Asset(ShapeKind kind, AssetId id) : kind_(kind), id_(id) {}
+  Asset(ShapeKind kind, AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry);
 
  private:
   ShapeKind kind_;
   AssetId id_;
+  std::unique_ptr<const geometry::AssetGeometry> geometry_;
 };
 
 using AssetPtr = std::shared_ptr<const Asset>;

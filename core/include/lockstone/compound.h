@@ -55,26 +55,12 @@ class Compound final : public Asset {
   [[nodiscard]] static Result<std::shared_ptr<const Compound>> from_bytes(ByteView bytes,
                                                                           const AssetSet& hulls);
 
-  ~Compound() override;
-
   [[nodiscard]] std::span<const CompoundChild> children() const;
 
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
-  [[nodiscard]] const geometry::LocalBounds& bounds() const override;
-  [[nodiscard]] const geometry::Solid* solid() const override;
-  void visit_parts(const geometry::LocalBounds& region,
-                   geometry::PartVisitor& visitor) const override;
-  void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                          const Vec3<Length>& reach,
-                          geometry::WayPartVisitor& visitor) const override;
-  void visit_parts_near(const Vec3<Length>& point, Length reach,
-                        geometry::NearPartVisitor& visitor) const override;
 
  private:
-  struct Data;
-  Compound(AssetId id, std::unique_ptr<const Data> data);
-
-  std::unique_ptr<const Data> data_;
+  Compound(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry);
 };
 
 /// A compound, or the reason why there is none and the child that is to blame.

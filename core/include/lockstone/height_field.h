@@ -10,10 +10,6 @@
 
 namespace lockstone {
 
-namespace geometry {
-struct HeightFieldData;
-}
-
 inline constexpr std::uint32_t k_max_height_field_samples = 4096;  ///< along each axis
 
 /// Definition of a height field; read during `HeightField::build` only. Sample (i, j) stands
@@ -74,8 +70,6 @@ struct [[nodiscard]] HeightFieldResult {
 /// there are surfaces.
 class HeightField final : public Asset {
  public:
-  ~HeightField() override;
-
   [[nodiscard]] static HeightFieldResult build(const HeightFieldDef& def);
 
   /// From canonical bytes of any origin: truncated, malformed, unsupported_version, or the height
@@ -87,22 +81,9 @@ class HeightField final : public Asset {
   [[nodiscard]] std::size_t memory_bytes() const;
 
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
-  [[nodiscard]] const geometry::LocalBounds& bounds() const override;
-  [[nodiscard]] const geometry::MeshKernels* mesh_kernels() const override;
-  [[nodiscard]] const geometry::HeightEditing* height_editing() const override;
-  void visit_parts(const geometry::LocalBounds& region,
-                   geometry::PartVisitor& visitor) const override;
-  void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                          const Vec3<Length>& reach,
-                          geometry::WayPartVisitor& visitor) const override;
-  void visit_parts_near(const Vec3<Length>& point, Length reach,
-                        geometry::NearPartVisitor& visitor) const override;
-  [[nodiscard]] const geometry::HeightFieldData& data() const { return *data_; }
 
  private:
-  HeightField(AssetId id, std::unique_ptr<const geometry::HeightFieldData> data);
-
-  std::unique_ptr<const geometry::HeightFieldData> data_;
+  HeightField(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry);
 };
 
 }  // namespace lockstone

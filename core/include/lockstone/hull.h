@@ -74,8 +74,6 @@ class Hull final : public Asset {
   /// The hull that `canonical_bytes` came from; malformed when there is none.
   [[nodiscard]] static Result<std::shared_ptr<const Hull>> from_bytes(ByteView bytes);
 
-  ~Hull() override;
-
   /// Of a rounded hull, else 0.
   [[nodiscard]] Length radius() const;
   /// In ascending order of x, y, z.
@@ -85,22 +83,9 @@ class Hull final : public Asset {
   [[nodiscard]] std::vector<int> face_vertices(int face) const;
 
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
-  [[nodiscard]] const geometry::LocalBounds& bounds() const override;
-  [[nodiscard]] const geometry::Solid* solid() const override;
-  [[nodiscard]] const geometry::Polytope* polytope() const override;
-  void visit_parts(const geometry::LocalBounds& region,
-                   geometry::PartVisitor& visitor) const override;
-  void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                          const Vec3<Length>& reach,
-                          geometry::WayPartVisitor& visitor) const override;
-  void visit_parts_near(const Vec3<Length>& point, Length reach,
-                        geometry::NearPartVisitor& visitor) const override;
 
  private:
-  struct Data;
-  Hull(AssetId id, std::unique_ptr<const Data> data);
-
-  std::unique_ptr<const Data> data_;
+  Hull(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry);
 };
 
 /// A hull, or the reason why there is none.

@@ -10,12 +10,6 @@
 
 namespace lockstone {
 
-namespace geometry {
-struct MeshData;
-/// Of an asset that is a mesh.
-[[nodiscard]] const MeshData& mesh_data(const Asset& asset);
-}  // namespace geometry
-
 inline constexpr std::uint32_t k_max_mesh_triangles = std::uint32_t{1} << 20;
 inline constexpr std::uint32_t k_max_mesh_vertices = 3 * k_max_mesh_triangles;
 /// Groups of triangles have numbers below this.
@@ -93,8 +87,6 @@ struct [[nodiscard]] MeshResult {
 /// groups, and about 22 for the tree; 8 a side of an edge between two groups.
 class Mesh final : public Asset {
  public:
-  ~Mesh() override;
-
   [[nodiscard]] static MeshResult build(const MeshDef& def);
 
   /// From canonical bytes of any origin: truncated, malformed, unsupported_version, or the mesh
@@ -106,23 +98,9 @@ class Mesh final : public Asset {
   [[nodiscard]] std::size_t memory_bytes() const;
 
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
-  [[nodiscard]] const geometry::LocalBounds& bounds() const override;
-  [[nodiscard]] const geometry::MeshKernels* mesh_kernels() const override;
-  [[nodiscard]] const geometry::MeshEditing* mesh_editing() const override;
-  void visit_parts(const geometry::LocalBounds& region,
-                   geometry::PartVisitor& visitor) const override;
-  void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                          const Vec3<Length>& reach,
-                          geometry::WayPartVisitor& visitor) const override;
-  void visit_parts_near(const Vec3<Length>& point, Length reach,
-                        geometry::NearPartVisitor& visitor) const override;
 
  private:
-  Mesh(AssetId id, std::unique_ptr<const geometry::MeshData> data);
-
-  friend const geometry::MeshData& geometry::mesh_data(const Asset& asset);
-
-  std::unique_ptr<const geometry::MeshData> data_;
+  Mesh(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry);
 };
 
 }  // namespace lockstone

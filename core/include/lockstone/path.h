@@ -54,8 +54,6 @@ class Path final : public Asset {
   /// The path that `canonical_bytes` came from; malformed when there is no such path.
   [[nodiscard]] static Result<std::shared_ptr<const Path>> from_bytes(ByteView bytes);
 
-  ~Path() override;
-
   [[nodiscard]] std::span<const PathPoint> points() const;
   [[nodiscard]] bool is_closed() const;
   /// m, rounded.
@@ -65,21 +63,9 @@ class Path final : public Asset {
   [[nodiscard]] Transform at(Length distance) const;
 
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
-  [[nodiscard]] const geometry::LocalBounds& bounds() const override;
-  [[nodiscard]] const geometry::Curve* curve() const override;
-  void visit_parts(const geometry::LocalBounds& region,
-                   geometry::PartVisitor& visitor) const override;
-  void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                          const Vec3<Length>& reach,
-                          geometry::WayPartVisitor& visitor) const override;
-  void visit_parts_near(const Vec3<Length>& point, Length reach,
-                        geometry::NearPartVisitor& visitor) const override;
 
  private:
-  struct Data;
-  Path(AssetId id, std::unique_ptr<const Data> data);
-
-  std::unique_ptr<const Data> data_;
+  Path(AssetId id, std::unique_ptr<const geometry::AssetGeometry> geometry);
 };
 
 /// A path, or the reason why there is none and the point that is to blame.

@@ -36,9 +36,10 @@ struct TerrainSample {
 [[nodiscard]] std::optional<bool> is_mesh_group_on(const World& world, BodyHandle body,
                                                    std::uint32_t group);
 
-/// The asset of a body as it is now, for drawing: its parts are those that bodies meet. Null for a
-/// shape complete in itself, or an unknown body. Valid until the next command or load.
-[[nodiscard]] const Asset* asset_of(const World& world, BodyHandle body);
+/// The geometry of a body as it is now, for the engine's own drawing: its parts are those that
+/// bodies meet. Null for a shape complete in itself, or an unknown body. Valid until the next
+/// command or load.
+[[nodiscard]] const geometry::AssetGeometry* geometry_of(const World& world, BodyHandle body);
 
 /// The changed tiles of all bodies, of WorldDef::terrain_tile_capacity.
 [[nodiscard]] std::uint32_t terrain_tile_count(const World& world);

@@ -17,6 +17,6 @@ namespace lockstone {
 
 /// Whether the body, which exists, may take the shape, which is valid and has this asset.
 [[nodiscard]] bool can_take_shape(const World::Impl& world, const SetShape& command,
-                                  const Asset* asset);
+                                  const geometry::AssetGeometry* asset);
 
 }  // namespace lockstone

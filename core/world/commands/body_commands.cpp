@@ -53,7 +53,8 @@ Mass mass_as_dynamic(const World::Impl& world, const SetMotionType& command) {
 }
 
 // The body with its new shape in the frame of the old one. Its speeds still follow from the old.
-BodyRecord reshaped(const World::Impl& world, const SetShape& command, const Asset* asset) {
+BodyRecord reshaped(const World::Impl& world, const SetShape& command,
+                    const geometry::AssetGeometry* asset) {
   const std::uint32_t body = command.body.index;
   BodyRecord record = world.bodies[body];
   const Transform frame =
@@ -69,7 +70,8 @@ BodyRecord reshaped(const World::Impl& world, const SetShape& command, const Ass
   return record;
 }
 
-bool can_take_shape(const World::Impl& world, const SetShape& command, const Asset* asset) {
+bool can_take_shape(const World::Impl& world, const SetShape& command,
+                    const geometry::AssetGeometry* asset) {
   const std::uint32_t body = command.body.index;
   const BodyRecord& record = world.bodies[body];
   if (record.moves() && !has_solid(command.shape, asset)) return false;
@@ -132,17 +134,18 @@ Status CommandExecutor::execute(const SetShape& command) {
   if (validate(command.shape) != Status::ok) return Status::invalid_argument;
   const Result<const Asset*> found = asset_of(command.shape, *world_.assets);
   if (!found.ok()) return found.status();
-  if (!can_take_shape(world_, command, found.value())) return Status::invalid_argument;
-  change_shape(command, found.value());
+  const geometry::AssetGeometry* asset = geometry::geometry_of(found.value());
+  if (!can_take_shape(world_, command, asset)) return Status::invalid_argument;
+  change_shape(command, asset);
   return Status::ok;
 }
 
-void CommandExecutor::change_shape(const SetShape& command, const Asset* asset) {
+void CommandExecutor::change_shape(const SetShape& command, const geometry::AssetGeometry* asset) {
   const std::uint32_t body = command.body.index;
   world_.waking.disturb(body);
   BodyRecord& record = *world_.edit(command.body);
   const BodyRecord old = record;
-  const Asset* old_asset = world_.cache.asset(body);
+  const geometry::AssetGeometry* old_asset = world_.cache.asset(body);
   const SurfaceMotion motion = surface_motion_of(old, old_asset);
   const Vec3<Velocity> turning =
       surface_velocity(inverse_inertia(old, world_.cache.rotation(body)), old.spin);

@@ -30,12 +30,13 @@ namespace lockstone {
 [[nodiscard]] Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets);
 
 /// Whether a body of this shape has a mass distribution, and so can move.
-[[nodiscard]] bool has_solid(const Shape& shape, const Asset* asset);
+[[nodiscard]] bool has_solid(const Shape& shape, const geometry::AssetGeometry* asset);
 
 /// The mass of a solid, kg: the asset's or the primitive shape's volume times the density.
-[[nodiscard]] Mass mass_of(const Shape& shape, const Asset* asset, Density density);
+[[nodiscard]] Mass mass_of(const Shape& shape, const geometry::AssetGeometry* asset,
+                           Density density);
 /// The one that the definition gives, or that of its solid.
-[[nodiscard]] Mass mass_of(const BodyDef& def, const Asset* asset);
+[[nodiscard]] Mass mass_of(const BodyDef& def, const geometry::AssetGeometry* asset);
 
 /// Of a dynamic body.
 [[nodiscard]] constexpr bool is_body_mass(Mass mass) {
@@ -61,7 +62,9 @@ void set_events(BodyRecord& record, const EventSettings& settings);
 void set_speed_limit(BodyRecord& record, const SpeedLimit& limit);
 
 /// Of the shape's frame, which the asset may place away from the body's.
-void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMotion& motion);
-[[nodiscard]] SurfaceMotion surface_motion_of(const BodyRecord& record, const Asset* asset);
+void set_surface_motion(BodyRecord& record, const geometry::AssetGeometry* asset,
+                        const SurfaceMotion& motion);
+[[nodiscard]] SurfaceMotion surface_motion_of(const BodyRecord& record,
+                                              const geometry::AssetGeometry* asset);
 
 }  // namespace lockstone

@@ -24,7 +24,7 @@ class CommandExecutor {
  private:
   Status push_now(BodyHandle body, const Push& push);
   Status push_in_tick(BodyHandle body, const Push& push);
-  void change_shape(const SetShape& command, const Asset* asset);
+  void change_shape(const SetShape& command, const geometry::AssetGeometry* asset);
   template <class SetAxis>
   Status set_axis_of(const SetAxis& command, std::size_t first);
 

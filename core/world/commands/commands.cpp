@@ -33,14 +33,15 @@ bool is_valid(const BodyDef& def) {
 
 // A shape without volume cannot be dynamic, and only a body with a centre of mass can move. Lighter
 // or heavier bodies would leave the formats of the solver.
-bool has_valid_mass(const BodyDef& def, const Asset* asset) {
+bool has_valid_mass(const BodyDef& def, const geometry::AssetGeometry* asset) {
   if (!has_solid(def.shape, asset)) return def.motion == MotionType::static_body;
   return def.motion != MotionType::dynamic ||
          has_valid_mass_data({mass_of(def, asset), def.mass.inertia},
                              properties_of(def.shape, asset).scale_exponent);
 }
 
-BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t generation) {
+BodyRecord make_record(const BodyDef& def, const geometry::AssetGeometry* asset,
+                       std::uint32_t generation) {
   BodyRecord record;
   const Transform pose = body_pose(asset, {def.position, def.orientation});
   record.position = pose.position;
@@ -72,7 +73,7 @@ BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t gen
   return record;
 }
 
-bool has_centre_in_world(const BodyDef& def, const Asset* asset) {
+bool has_centre_in_world(const BodyDef& def, const geometry::AssetGeometry* asset) {
   return is_within(body_pose(asset, {def.position, def.orientation}).position, k_world_limit);
 }
 
@@ -86,16 +87,16 @@ Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets) {
   return asset;
 }
 
-bool has_solid(const Shape& shape, const Asset* asset) {
+bool has_solid(const Shape& shape, const geometry::AssetGeometry* asset) {
   return asset != nullptr ? asset->solid() != nullptr : is_primitive(shape.kind);
 }
 
-Mass mass_of(const Shape& shape, const Asset* asset, Density density) {
+Mass mass_of(const Shape& shape, const geometry::AssetGeometry* asset, Density density) {
   if (asset == nullptr) return mass_of(shape, density);
   return multiply_saturating<Mass>(density, asset->solid()->volume);
 }
 
-Mass mass_of(const BodyDef& def, const Asset* asset) {
+Mass mass_of(const BodyDef& def, const geometry::AssetGeometry* asset) {
   if (def.mass.mass != Mass{}) return def.mass.mass;
   return mass_of(def.shape, asset, def.material.density);
 }
@@ -104,7 +105,7 @@ Result<BodyHandle> BodyRegistry::create(const BodyDef& body_def) {
   if (!is_valid(body_def)) return Status::invalid_argument;
   const Result<const Asset*> found = asset_of(body_def.shape, *world_.assets);
   if (!found.ok()) return found.status();
-  const Asset* asset = found.value();
+  const geometry::AssetGeometry* asset = geometry::geometry_of(found.value());
   Vec3<Velocity> surface;
   if (!has_valid_mass(body_def, asset) || !has_centre_in_world(body_def, asset) ||
       !to_surface_velocity(body_def.angular_velocity,

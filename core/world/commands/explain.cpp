@@ -77,7 +77,7 @@ void check_moments(RefusalFinder& find, std::string_view field, const MassData& 
 
 namespace {
 
-void check_mass(RefusalFinder& find, const BodyDef& def, const Asset* asset) {
+void check_mass(RefusalFinder& find, const BodyDef& def, const geometry::AssetGeometry* asset) {
   if (!has_solid(def.shape, asset)) {
     find.require(def.motion == MotionType::static_body, "motion", to_string(def.motion),
                  "static for a " + std::string(to_string(def.shape.kind)) + " without volume");
@@ -274,9 +274,10 @@ Refusal World::explain(const WorldDef& def) {
 
 Refusal World::explain(const BodyDef& def) const {
   RefusalFinder find("body.");
-  const Asset* asset = is_asset(def.shape.kind) ? impl_->assets->find(def.shape.asset) : nullptr;
+  const Asset* named = is_asset(def.shape.kind) ? impl_->assets->find(def.shape.asset) : nullptr;
+  const geometry::AssetGeometry* asset = geometry::geometry_of(named);
   find.known("motion", def.motion, MotionType::static_body, MotionType::dynamic);
-  check(find, def.shape, asset);
+  check(find, def.shape, named);
   check_own_fields(find, def);
   if (find.done()) return find.take();
   check_mass(find, def, asset);

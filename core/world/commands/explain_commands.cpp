@@ -319,7 +319,8 @@ class CommandExplainer::Nature {
     if (record->is_dynamic() && c.mass != Mass{})
       on_.find.within("mass", c.mass, k_min_mass, k_max_mass, "kg");
     if (on_.find.done()) return;
-    on_.find.require(can_take_shape(on_.impl, c, asset), "shape", to_string(c.shape.kind),
+    on_.find.require(can_take_shape(on_.impl, c, geometry::geometry_of(asset)), "shape",
+                     to_string(c.shape.kind),
                      "one with a volume for a body that moves, with its centre of mass in the "
                      "world and near enough to the body's joints");
   }

@@ -81,7 +81,7 @@ Status gain_of(const WorldData& world, BodyHandle body, const Push& push, TickGa
   const BodyRecord* record = world.find(body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic() || push.frame > Frame::body) return Status::invalid_argument;
-  const Asset* asset = world.cache.asset(body.index);
+  const geometry::AssetGeometry* asset = world.cache.asset(body.index);
   Vec3<Impulse> impulse = push.impulse;
   Vec3<AngularImpulse> turn = push.turn;
   Vec3<Length> point = push.point != nullptr ? *push.point : Vec3<Length>{};

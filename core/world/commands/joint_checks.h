@@ -21,8 +21,8 @@ inline constexpr std::int64_t k_effort_limit = std::int64_t{1} << 56;
 [[nodiscard]] bool holds_something(const JointDef& def);
 
 /// The record of a definition, in the bodies' frames of mass; false where an orientation is none.
-[[nodiscard]] bool make_joint(const JointDef& from, const Asset* asset_a, const Asset* asset_b,
-                              JointRecord& joint);
+[[nodiscard]] bool make_joint(const JointDef& from, const geometry::AssetGeometry* asset_a,
+                              const geometry::AssetGeometry* asset_b, JointRecord& joint);
 
 /// How far an anchor may be from the centre of mass, along each axis.
 [[nodiscard]] Length anchor_reach(const BodyRecord& body);

@@ -84,7 +84,7 @@ void set_axis(JointRecord& joint, std::size_t index, const Axis& from) {
 }
 
 // From the frame of the shape to that of mass.
-bool set_frame(const JointFrame& frame, const Asset* asset, Vec3<Length>& anchor,
+bool set_frame(const JointFrame& frame, const geometry::AssetGeometry* asset, Vec3<Length>& anchor,
                Quat& orientation) {
   if (!has_direction(frame.orientation)) return false;
   const Transform mass = body_pose(asset, {});
@@ -225,8 +225,8 @@ Status validate(const JointRecord& joint) {
   return valid ? Status::ok : Status::malformed;
 }
 
-bool make_joint(const JointDef& from, const Asset* asset_a, const Asset* asset_b,
-                JointRecord& joint) {
+bool make_joint(const JointDef& from, const geometry::AssetGeometry* asset_a,
+                const geometry::AssetGeometry* asset_b, JointRecord& joint) {
   joint = make_joint(from);
   return set_frame(from.frame_a, asset_a, joint.anchor_a, joint.orientation_a) &&
          set_frame(from.frame_b, asset_b, joint.anchor_b, joint.orientation_b);

@@ -66,7 +66,8 @@ std::int64_t turned_around(const SurfaceMotion& motion, const Vec3<Position>& wa
 
 }  // namespace
 
-void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMotion& motion) {
+void set_surface_motion(BodyRecord& record, const geometry::AssetGeometry* asset,
+                        const SurfaceMotion& motion) {
   const Transform body = body_pose(asset, {});  // in the shape's frame
   const Mat3 axes = to_matrix(body.orientation);
   // v + ω × centre
@@ -81,7 +82,7 @@ void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMot
 }
 
 // v = v_c − ω × centre, both along the axes of the shape's frame.
-SurfaceMotion surface_motion_of(const BodyRecord& record, const Asset* asset) {
+SurfaceMotion surface_motion_of(const BodyRecord& record, const geometry::AssetGeometry* asset) {
   if (!record.has_surface_motion()) return {};
   const Transform body = body_pose(asset, {});  // in the shape's frame
   const Mat3 axes = to_matrix(body.orientation);

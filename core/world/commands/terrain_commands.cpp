@@ -43,7 +43,7 @@ class HeightEdit {
       : world_(world),
         command_(command),
         editing_(*terrain_of(world, command.body.index)),
-        field_(editing_.data_of(*world.assets->find(world.bodies[command.body.index].shape().asset_id()))) {
+        field_(editing_.data_of(*geometry_as_built(world, command.body.index))) {
     const GridPoint first{static_cast<std::int32_t>(command.column),
                           static_cast<std::int32_t>(command.row)};
     const GridPoint last{first.i + static_cast<std::int32_t>(command.columns) - 1,
@@ -176,8 +176,7 @@ void change_tiles(WorldData& world, const HeightEdit& edit) {
 
 HeightsFault fault_of(const WorldData& world, const SetHeights& command) {
   const std::uint32_t body = command.body.index;
-  const HeightFieldData& field =
-      terrain_of(world, body)->data_of(*world.assets->find(world.bodies[body].shape().asset_id()));
+  const HeightFieldData& field = terrain_of(world, body)->data_of(*geometry_as_built(world, body));
   if (!is_range_of(command.column, command.columns, field.columns)) return HeightsFault::columns;
   if (!is_range_of(command.row, command.rows, field.rows)) return HeightsFault::rows;
   const std::size_t samples = std::size_t{command.columns} * command.rows;
@@ -239,8 +238,8 @@ HeightTile switched(HeightTile tile, const SetMeshGroup& command) {
 
 const geometry::LocalBounds* bounds_of_group(const WorldData& world, BodyHandle body,
                                              std::uint32_t group) {
-  const Asset& asset = *world.assets->find(world.bodies[body.index].shape().asset_id());
-  return asset.mesh_editing()->bounds_of(asset, group);
+  const geometry::AssetGeometry& mesh = *geometry_as_built(world, body.index);
+  return mesh.mesh_editing()->bounds_of(mesh, group);
 }
 
 }  // namespace
@@ -287,8 +286,7 @@ std::optional<TerrainSample> terrain_sample_of(const World& world, BodyHandle bo
   if (data.find(body) == nullptr) return {};
   const geometry::HeightEditing* editing = terrain_of(data, body.index);
   if (editing == nullptr) return {};
-  const HeightFieldData& field =
-      editing->data_of(*data.assets->find(data.bodies[body.index].shape().asset_id()));
+  const HeightFieldData& field = editing->data_of(*geometry_as_built(data, body.index));
   if (!is_range_of(column, 1, field.columns) || !is_range_of(row, 1, field.rows)) return {};
   const GridPoint at{static_cast<std::int32_t>(column), static_cast<std::int32_t>(row)};
   const HeightTileKey key = HeightTile::key_of(body.index, at);
@@ -307,7 +305,7 @@ std::optional<bool> is_mesh_group_on(const World& world, BodyHandle body, std::u
   return !tile.is_hole(group % HeightTile::k_samples);
 }
 
-const Asset* asset_of(const World& world, BodyHandle body) {
+const geometry::AssetGeometry* geometry_of(const World& world, BodyHandle body) {
   const WorldData& data = WorldTerrain::of(world);
   return data.find(body) == nullptr ? nullptr : data.cache.asset(body.index);
 }

@@ -11,9 +11,8 @@ namespace {
 // Bodies with tiles have the assets of their own again.
 void unbind(WorldData& world) {
   for (const std::uint32_t body : world.edited_bodies) {
-    const BodyRecord& record = world.bodies[body];
-    if (!record.exists()) continue;
-    world.cache.set_asset(body, world.assets->find(record.shape().asset_id()));
+    if (!world.bodies[body].exists()) continue;
+    world.cache.set_asset(body, geometry_as_built(world, body));
     world.refresh(body);
   }
   world.edited_bodies.clear();
@@ -32,8 +31,7 @@ void bind(WorldData& world, std::uint32_t body, std::span<const TerrainTileRecor
   if (room == nullptr) return;
   LKS_ASSERT(world.edited_bodies.size() < room->slots());
   const auto slot = static_cast<std::uint32_t>(world.edited_bodies.size());
-  const Asset& base = *world.assets->find(world.bodies[body].shape().asset_id());
-  world.cache.set_asset(body, room->set(slot, base, tiles));
+  world.cache.set_asset(body, room->set(slot, *geometry_as_built(world, body), tiles));
   world.edited_bodies.push_back(body);
   world.refresh(body);
 }
@@ -47,9 +45,11 @@ void TerrainData::make_terrain_room(std::uint32_t tile_capacity, std::uint32_t b
   const std::uint32_t most = std::min(tile_capacity, body_capacity);
   edited_bodies.reserve(most);
   for (const AssetPtr& asset : assets.all()) {
-    if (const auto* editing = asset->height_editing(); editing != nullptr && !edited_fields)
+    if (const auto* editing = asset->geometry().height_editing();
+        editing != nullptr && !edited_fields)
       edited_fields = editing->make_edited(most);
-    if (const auto* editing = asset->mesh_editing(); editing != nullptr && !edited_meshes)
+    if (const auto* editing = asset->geometry().mesh_editing();
+        editing != nullptr && !edited_meshes)
       edited_meshes = editing->make_edited(most);
   }
 }
@@ -77,14 +77,18 @@ bool forget_terrain_of(WorldData& world, std::uint32_t body) {
   return world.header.terrain_tile_count != before;
 }
 
+const geometry::AssetGeometry* geometry_as_built(const WorldData& world, std::uint32_t body) {
+  return geometry::geometry_of(world.assets->find(world.bodies[body].shape().asset_id()));
+}
+
 const geometry::MeshEditing* mesh_groups_of(const WorldData& world, std::uint32_t body) {
-  const Asset* asset = world.assets->find(world.bodies[body].shape().asset_id());
-  return asset == nullptr ? nullptr : asset->mesh_editing();
+  const geometry::AssetGeometry* geometry = geometry_as_built(world, body);
+  return geometry == nullptr ? nullptr : geometry->mesh_editing();
 }
 
 const geometry::HeightEditing* terrain_of(const WorldData& world, std::uint32_t body) {
-  const Asset* asset = world.assets->find(world.bodies[body].shape().asset_id());
-  return asset == nullptr ? nullptr : asset->height_editing();
+  const geometry::AssetGeometry* geometry = geometry_as_built(world, body);
+  return geometry == nullptr ? nullptr : geometry->height_editing();
 }
 
 }  // namespace lockstone

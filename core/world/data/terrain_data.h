@@ -33,6 +33,11 @@ struct TerrainData {
 /// change of them.
 void refresh_terrain(WorldData& world);
 
+/// The geometry of a body that exists, without a world's changes of terrain; null of a shape that
+/// is complete in itself.
+[[nodiscard]] const geometry::AssetGeometry* geometry_as_built(const WorldData& world,
+                                                               std::uint32_t body);
+
 /// Removes the tiles of a body. Returns whether there were any: then `refresh_terrain` follows.
 [[nodiscard]] bool forget_terrain_of(WorldData& world, std::uint32_t body);
 

@@ -68,7 +68,7 @@ void WorldDrawing::draw_shapes(DebugDraw& out) {
          .shape = body.shape(),
          .pose = pose,
          .rotation = to_matrix(pose.orientation),
-         .asset = world_.cache.asset(i),
+         .asset = world_.assets->find(body.shape().asset_id()),
          .island = body.is_dynamic() ? world_.handle_of(world_.islands.root(i)) : BodyHandle{},
          .user_data = body.user_data});
   }

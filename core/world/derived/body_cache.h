@@ -24,8 +24,12 @@ class BodyCache {
   explicit BodyCache(std::uint32_t body_capacity);
 
   /// Null: a shape complete in itself.
-  [[nodiscard]] const Asset* asset(std::uint32_t body) const { return assets_[body]; }
-  void set_asset(std::uint32_t body, const Asset* asset) { assets_[body] = asset; }
+  [[nodiscard]] const geometry::AssetGeometry* asset(std::uint32_t body) const {
+    return assets_[body];
+  }
+  void set_asset(std::uint32_t body, const geometry::AssetGeometry* asset) {
+    assets_[body] = asset;
+  }
 
   [[nodiscard]] const Mat3& rotation(std::uint32_t body) const { return rotations_[body]; }
   /// By body index.
@@ -71,7 +75,7 @@ class BodyCache {
 
  private:
   // All by body.
-  std::vector<const Asset*> assets_;
+  std::vector<const geometry::AssetGeometry*> assets_;
   std::vector<Mat3> rotations_;
   std::vector<Mat3> recycling_rotations_;
   std::vector<PoseDelta> pose_deltas_;

@@ -71,7 +71,7 @@ Vec3<Position> place_between(const ManifoldPoint& point, const BodyRecord& a, co
   return place;
 }
 
-ShapeProperties properties_of(const Shape& shape, const Asset* asset) {
+ShapeProperties properties_of(const Shape& shape, const geometry::AssetGeometry* asset) {
   const auto bounded = [](const Vec3<Unit>& inertia) {
     return Vec3<Unit>{max(inertia.x, k_min_inertia), max(inertia.y, k_min_inertia),
                       max(inertia.z, k_min_inertia)};

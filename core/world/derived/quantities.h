@@ -9,6 +9,7 @@
 #include <lockstone/vec3.h>
 
 #include "core/dynamics/state/body_record.h"
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/distance/manifold.h"
 #include "core/math/block_float.h"
 
@@ -48,6 +49,7 @@ struct ShapeProperties {
   int scale_exponent = 0;
   Length radius{};
 };
-[[nodiscard]] ShapeProperties properties_of(const Shape& shape, const Asset* asset);
+[[nodiscard]] ShapeProperties properties_of(const Shape& shape,
+                                            const geometry::AssetGeometry* asset);
 
 }  // namespace lockstone

@@ -5,7 +5,7 @@
 namespace lockstone {
 namespace {
 
-bool has_triangles(const Asset* asset) {
+bool has_triangles(const geometry::AssetGeometry* asset) {
   return asset != nullptr && asset->mesh_kernels() != nullptr;
 }
 
@@ -43,11 +43,10 @@ bool ComputedBodies::may_reach_all(WorldData& world, const TickMemory& known) co
     if (body >= before.header.body_limit) return false;
     BodyRecord record;
     before.read<BodyStore>(body, record);
-    return has_triangles(world.assets->find(record.shape().asset_id()));
+    return has_triangles(geometry::geometry_of(world.assets->find(record.shape().asset_id())));
   };
   return std::ranges::any_of(changes_.bodies(), [&](std::uint32_t body) {
-    return has_triangles(world.assets->find(world.bodies[body].shape().asset_id())) ||
-           had_triangles(body);
+    return has_triangles(geometry_as_built(world, body)) || had_triangles(body);
   });
 }
 

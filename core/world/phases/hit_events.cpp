@@ -84,7 +84,7 @@ HitEvent hit_of(const WorldData& world, const Pair& pair, const ImpactTotal& tot
 std::uint32_t part_at(const WorldData& world, std::uint32_t body, const Vec3<Position>& point,
                       std::uint32_t part) {
   constexpr Length k_reach = Length::from_integer(16);  // more than a body moves in most ticks
-  const Asset* asset = world.cache.asset(body);
+  const geometry::AssetGeometry* asset = world.cache.asset(body);
   if (asset == nullptr || asset->mesh_kernels() == nullptr) return part;
   return closest_point(world.placed(body), point, k_reach).part;
 }

@@ -65,7 +65,8 @@ void walk_ray(const WorldData& world, const Ray& ray, const QueryFilter& filter,
 PlacedShape placed_query(const WorldData& world, const Shape& shape, const Transform& pose) {
   if (validate(shape) != Status::ok)
     misused("a query of World: a size of the shape is out of range; ask validate(shape) first");
-  const Asset* asset = is_asset(shape.kind) ? world.assets->find(shape.asset) : nullptr;
+  const geometry::AssetGeometry* asset =
+      is_asset(shape.kind) ? geometry::geometry_of(world.assets->find(shape.asset)) : nullptr;
   const bool convex =
       is_primitive(shape.kind) || (asset != nullptr && asset->polytope() != nullptr);
   if (!convex)

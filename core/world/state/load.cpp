@@ -119,7 +119,7 @@ bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
     return true;
   }
   if (record.exists()) {
-    world_.cache.set_asset(body, world_.assets->find(record.shape().asset_id()));
+    world_.cache.set_asset(body, geometry_as_built(world_, body));
     world_.refresh(body);
     return same;
   }
@@ -204,7 +204,7 @@ void StateLoader::rebuild_from(std::span<const ContactRecord> contacts) {
   world_.sleep_flags.rebuild();
   for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
     if (!world_.bodies[i].exists()) continue;
-    world_.cache.set_asset(i, world_.assets->find(world_.bodies[i].shape().asset_id()));
+    world_.cache.set_asset(i, geometry_as_built(world_, i));
     world_.refresh(i);
   }
   refresh_terrain(world_);

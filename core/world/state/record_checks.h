@@ -23,7 +23,8 @@ namespace lockstone {
 [[nodiscard]] Status validate(const SurfaceRuleRecord& record);
 [[nodiscard]] Status validate(const VehicleRecord& record);
 /// With the asset of its body.
-[[nodiscard]] bool is_valid_tile(const Asset& asset, const TerrainTileRecord& tile);
+[[nodiscard]] bool is_valid_tile(const geometry::AssetGeometry& terrain,
+                                 const TerrainTileRecord& tile);
 
 /// The same with the bodies that a contact is between, or that a joint holds.
 [[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a,

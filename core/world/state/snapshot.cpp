@@ -69,7 +69,8 @@ bool has_valid_notes(const BodyRecord& record) {
 bool has_known_shape(const BodyRecord& record, const Asset* asset) {
   const ShapeKind kind = record.shape().kind;
   if (is_asset(kind) && (asset == nullptr || asset->kind() != kind)) return false;
-  const bool has_solid = is_primitive(kind) || (asset != nullptr && asset->solid() != nullptr);
+  const bool has_solid =
+      is_primitive(kind) || (asset != nullptr && asset->geometry().solid() != nullptr);
   return has_solid || record.is_static();
 }
 
@@ -129,7 +130,7 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
     return Status::malformed;
   const Asset* asset = assets.find(record.shape().asset_id());
   if (!has_known_shape(record, asset)) return Status::malformed;
-  const int scale = properties_of(record.shape(), asset).scale_exponent;
+  const int scale = properties_of(record.shape(), geometry::geometry_of(asset)).scale_exponent;
   const bool consistent = record.scale_exponent == scale && has_valid_inertia(record.inertia) &&
                           has_valid_mass(record) && has_valid_surface(record) &&
                           has_valid_sleep(record) && has_valid_limits(record) &&
@@ -180,12 +181,12 @@ Status validate(const VehicleRecord& record) {
 }
 
 // One that is as in the asset would be another record of the same terrain.
-bool is_valid_tile(const Asset& asset, const TerrainTileRecord& tile) {
-  if (const geometry::MeshEditing* groups = asset.mesh_editing())
-    return groups->is_tile(asset, tile);
-  const geometry::HeightEditing* editing = asset.height_editing();
+bool is_valid_tile(const geometry::AssetGeometry& terrain, const TerrainTileRecord& tile) {
+  if (const geometry::MeshEditing* groups = terrain.mesh_editing())
+    return groups->is_tile(terrain, tile);
+  const geometry::HeightEditing* editing = terrain.height_editing();
   if (editing == nullptr) return false;
-  const geometry::HeightFieldData& field = editing->data_of(asset);
+  const geometry::HeightFieldData& field = editing->data_of(terrain);
   return editing->is_tile(field, tile) && tile != editing->original(field, tile.key());
 }
 
@@ -304,7 +305,7 @@ Status SnapshotView::check(TerrainTileStore) const {
     const auto tile = record<TerrainTileStore>(i);
     if (tile.owner >= header.body_limit || !body(tile.owner).exists()) return Status::malformed;
     const Asset* asset = assets_->find(body(tile.owner).shape().asset_id());
-    if (asset == nullptr || !is_valid_tile(*asset, tile)) return Status::malformed;
+    if (asset == nullptr || !is_valid_tile(asset->geometry(), tile)) return Status::malformed;
     if (i > 0 && record<TerrainTileStore>(i - 1).key() >= tile.key()) return Status::malformed;
   }
   return Status::ok;

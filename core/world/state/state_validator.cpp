@@ -80,9 +80,9 @@ WorldFault StateValidator::fault_of_terrain() const {
     const TerrainTileRecord& tile = world_.tiles[i];
     if (tile.owner >= world_.header.body_limit || !world_.bodies[tile.owner].exists())
       return {"a tile of no body", i};
-    const Asset* asset = world_.assets->find(world_.bodies[tile.owner].shape().asset_id());
-    if (asset == nullptr || !is_valid_tile(*asset, tile)) return {"a tile's record", i};
-    if (world_.cache.asset(tile.owner) == asset) return {"the asset of a changed terrain", i};
+    const geometry::AssetGeometry* built = geometry_as_built(world_, tile.owner);
+    if (built == nullptr || !is_valid_tile(*built, tile)) return {"a tile's record", i};
+    if (world_.cache.asset(tile.owner) == built) return {"the asset of a changed terrain", i};
     if (i > 0 && world_.tiles[i - 1].key() >= tile.key()) return {"the order of tiles", i};
   }
   return {};
@@ -128,9 +128,10 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
       return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
     sleepers += body.is_asleep() ? 1U : 0U;
-    const Asset* asset = world_.cache.asset(i);  // of a changed terrain not that of the set
-    if ((asset == nullptr ? AssetId{} : asset->id()) != body.shape().asset_id())
-      return {"the asset of a body", i};
+    const bool is_as_built = world_.cache.asset(i) == geometry_as_built(world_, i);
+    const bool is_changed =
+        std::ranges::find(world_.edited_bodies, i) != world_.edited_bodies.end();
+    if (is_as_built == is_changed) return {"the asset of a body", i};
     if (world_.cache.rotation(i) != to_matrix(body.orientation))
       return {"the rotation of a body", i};
     if (is_enabled(body) && world_.broad_phase.bounds(i) != world_.bounds_of(i))

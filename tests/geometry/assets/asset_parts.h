@@ -6,6 +6,7 @@
 
 #include <lockstone/mesh.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/mesh_contact/triangle_polytope.h"
 #include "tests/geometry/scene.h"
 
@@ -43,7 +44,7 @@ class CollectRayParts final : public geometry::WayPartVisitor {
 
 inline std::vector<SeenPart> all_parts(const Asset& asset) {
   CollectParts collect;
-  asset.visit_parts(asset.bounds(), collect);
+  asset.geometry().visit_parts(asset.geometry().bounds(), collect);
   return collect.parts;
 }
 

@@ -7,6 +7,7 @@
 #include <lockstone/literals.h>
 #include <lockstone/testing/floating.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/geometry/convex/solid.h"
@@ -31,7 +32,7 @@ CompoundChild child(const Shape& shape, const Vec3<Length>& position) {
 
 const geometry::Solid& solid_of(const CompoundResult& built) {
   EXPECT_TRUE(built.ok()) << to_string(built.fault);
-  return *built.compound->solid();
+  return *built.compound->geometry().solid();
 }
 
 TEST(Compound, OfOneShapeHasItsMassDistribution) {

@@ -6,6 +6,7 @@
 #include <lockstone/hash.h>
 #include <lockstone/height_field.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "tests/geometry/assets/asset_parts.h"
 
 namespace lockstone::test {
@@ -88,7 +89,7 @@ std::pair<Key, unsigned> canonical(const SeenPart& part) {
 
 std::map<Key, unsigned> triangles_in(const Asset& asset, const LocalBounds& region) {
   CollectParts collect;
-  asset.visit_parts(region, collect);
+  asset.geometry().visit_parts(region, collect);
   std::map<Key, unsigned> result;
   for (const SeenPart& part : collect.parts)
     result.insert(canonical(part));
@@ -104,7 +105,8 @@ TEST(HeightField, ShowsTheTrianglesAndEdgesOfTheSameSurfaceAsAMesh) {
     if (result.fault == HeightFieldFault::empty) continue;
     const HeightField& field = *result.height_field;
     const auto mesh = as_mesh(field);
-    EXPECT_EQ(triangles_in(field, field.bounds()), triangles_in(*mesh, field.bounds()));
+    EXPECT_EQ(triangles_in(field, field.geometry().bounds()),
+              triangles_in(*mesh, field.geometry().bounds()));
     for (int i = 0; i < 200; ++i) {
       const LocalBounds region = random_region(dice, 15, 4);
       ASSERT_EQ(triangles_in(field, region), triangles_in(*mesh, region));
@@ -117,7 +119,7 @@ TEST(HeightField, ShowsPartsInAscendingOrder) {
   const auto field = built(random_terrain(dice, 30, 20).def());
   for (int i = 0; i < 50; ++i) {
     CollectParts collect;
-    field->visit_parts(random_region(dice, 15, 15), collect);
+    field->geometry().visit_parts(random_region(dice, 15, 15), collect);
     for (std::size_t k = 1; k < collect.parts.size(); ++k)
       ASSERT_LT(collect.parts[k - 1].index, collect.parts[k].index);
   }
@@ -158,7 +160,7 @@ TEST(HeightField, MissesNoPartThatARayMeets) {
         metres(dice.uniform(-7, 20), dice.uniform(-2, 3), dice.uniform(-3, 25)) - origin;
     if (dice.chance(5)) way = {{}, way.y, {}};
     CollectRayParts collect;
-    field->visit_parts_on_way(origin, way, {}, collect);
+    field->geometry().visit_parts_on_way(origin, way, {}, collect);
     std::sort(collect.parts.begin(), collect.parts.end());
     met += collect.parts.size();
     for (const SeenPart& part : all) {
@@ -179,7 +181,9 @@ TEST(HeightField, AsksForNothingFarBeyondAShortenedRay) {
     }
   } first;
   Terrain terrain{400, 5, std::vector<Length>(2000), {}, {}};
-  built(terrain.def())->visit_parts_on_way(metres(-8, 1, 0), metres(400, 0, 0), {}, first);
+  built(terrain.def())
+      ->geometry()
+      .visit_parts_on_way(metres(-8, 1, 0), metres(400, 0, 0), {}, first);
   EXPECT_GT(first.visits, 0);
   EXPECT_LE(first.visits, 4);
 }
@@ -193,8 +197,8 @@ TEST(HeightField, TakesSamplesAsStepsAboveItsOrigin) {
   def.sample_step = Length::from_raw(1000);
   def.origin.y = metres(-30);
   const auto field = built(def);
-  EXPECT_EQ(field->bounds().lower.y, metres(-30));
-  EXPECT_EQ(field->bounds().upper.y.raw, metres(-30).raw + 65535000);
+  EXPECT_EQ(field->geometry().bounds().lower.y, metres(-30));
+  EXPECT_EQ(field->geometry().bounds().upper.y.raw, metres(-30).raw + 65535000);
   def.sample_step = metres(1);
   const HeightFieldResult refused = HeightField::build(def);
   EXPECT_EQ(refused.fault, HeightFieldFault::coordinate_out_of_range);
@@ -243,7 +247,7 @@ TEST(HeightField, ReturnsFromItsBytesAndAnswersBadOnesWithAnError) {
   const auto back = HeightField::from_bytes(bytes);
   ASSERT_TRUE(back.ok());
   EXPECT_EQ(back.value()->canonical_bytes(), bytes);
-  EXPECT_EQ(back.value()->bounds(), field->bounds());
+  EXPECT_EQ(back.value()->geometry().bounds(), field->geometry().bounds());
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_EQ(HeightField::from_bytes(ByteView(bytes).first(size)).status(), Status::truncated);
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {

@@ -1,3 +1,4 @@
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/solid_integrals.h"
 #include "core/geometry/numeric/exact_plane.h"
@@ -136,19 +137,20 @@ TEST(HullSolid, OfExactFacesIsThatOfTheFaces) {
     do {
       const Cloud cloud = moved(in_cube(dice, 100, 1), metres(RealVec{far, -far, far}));
       hull = hull_of(cloud, {.tolerance = Length::from_raw(1), .max_vertices = 128});
-    } while (!has_only_triangles(*hull->polytope()));
-    expect_solid(*hull->solid(), reference_of(hull->vertices(), fan_of(*hull->polytope())));
+    } while (!has_only_triangles(*hull->geometry().polytope()));
+    expect_solid(*hull->geometry().solid(),
+                 reference_of(hull->vertices(), fan_of(*hull->geometry().polytope())));
   }
 }
 
 TEST(HullSolid, IsFoundWrongWhenAVertexMoves) {
   const Cloud corners = box(1, 1, 1);
   const auto hull = hull_of(corners);
-  const auto triangles = fan_of(*hull->polytope());
+  const auto triangles = fan_of(*hull->geometry().polytope());
   Cloud other(hull->vertices().begin(), hull->vertices().end());
-  EXPECT_LE(worst_error(*hull->solid(), reference_of(other, triangles)), 1);
+  EXPECT_LE(worst_error(*hull->geometry().solid(), reference_of(other, triangles)), 1);
   other[0].x -= Length::from_raw(20);  // 19 µm
-  EXPECT_GT(worst_error(*hull->solid(), reference_of(other, triangles)), 1);
+  EXPECT_GT(worst_error(*hull->geometry().solid(), reference_of(other, triangles)), 1);
 }
 
 TEST(HullSolid, OfABoxIsThatOfTheShape) {
@@ -161,7 +163,7 @@ TEST(HullSolid, OfABoxIsThatOfTheShape) {
       corners.push_back({(k & 1) != 0 ? x : -x, (k & 2) != 0 ? y : -y, (k & 4) != 0 ? z : -z});
     const auto hull = hull_of(corners);
     ASSERT_NE(hull, nullptr);
-    const Solid& solid = *hull->solid();
+    const Solid& solid = *hull->geometry().solid();
     EXPECT_EQ(hull->face_count(), 6);
     EXPECT_EQ(solid.centre, Vec3<Length>{});
     EXPECT_EQ(solid.axes, Quat{});
@@ -183,7 +185,7 @@ TEST(HullSolid, OfATurnedBoxHasTheTurnedAxes) {
     const Mat3 tilt = to_matrix(dice.orientation());
     const auto hull = hull_of(moved(turned(box(1.5, 1, 0.5), tilt), metres(300, 20, -100)));
     ASSERT_NE(hull, nullptr);
-    const Solid& solid = *hull->solid();
+    const Solid& solid = *hull->geometry().solid();
     const Mat3 axes = to_matrix(solid.axes);
     const Vec3<Unit> moments = normalized_inertia(Shape::box(metres(1.5), metres(1), metres(0.5)));
     for (int k = 0; k < 3; ++k) {  // each axis of the solid is one of the box, up to its sign
@@ -201,20 +203,22 @@ TEST(HullSolid, OfATurnedBoxHasTheTurnedAxes) {
 
 TEST(HullSolid, OfEqualMomentsKeepsTheAxes) {
   Dice dice;
-  EXPECT_EQ(hull_of(box(1, 1, 1))->solid()->axes, Quat{});
-  EXPECT_EQ(hull_of(moved(box(3, 3, 3), metres(100, 7, 1)))->solid()->axes, Quat{});
+  EXPECT_EQ(hull_of(box(1, 1, 1))->geometry().solid()->axes, Quat{});
+  EXPECT_EQ(hull_of(moved(box(3, 3, 3), metres(100, 7, 1)))->geometry().solid()->axes, Quat{});
   EXPECT_EQ(hull_of({metres(1, 0, 0), metres(-1, 0, 0), metres(0, 1, 0), metres(0, -1, 0),
                      metres(0, 0, 1), metres(0, 0, -1)})
-                ->solid()
+                ->geometry()
+                .solid()
                 ->axes,
             Quat{});
   EXPECT_EQ(hull_of({metres(1, 1, 1), metres(-1, -1, 1), metres(-1, 1, -1), metres(1, -1, -1)})
-                ->solid()
+                ->geometry()
+                .solid()
                 ->axes,
             Quat{});
   // A tumbled cube, its corners rounded: every axis is principal, so its own are kept.
   const auto cube = hull_of(turned(box(8, 8, 8), to_matrix(dice.orientation())));
-  EXPECT_EQ(cube->solid()->axes, Quat{});
+  EXPECT_EQ(cube->geometry().solid()->axes, Quat{});
 }
 
 TEST(HullSolid, RadiiHoldTheHullAndAreHeldByIt) {
@@ -222,7 +226,7 @@ TEST(HullSolid, RadiiHoldTheHullAndAreHeldByIt) {
   for (const NamedCloud& cloud : clouds(dice)) {
     SCOPED_TRACE(cloud.name);
     const auto hull = hull_of(cloud.points);
-    const Solid& solid = *hull->solid();
+    const Solid& solid = *hull->geometry().solid();
     const RealVec centre = real(solid.centre);
     Real outer = 0;
     for (const Vec3<Length>& v : hull->vertices())
@@ -230,7 +234,7 @@ TEST(HullSolid, RadiiHoldTheHullAndAreHeldByIt) {
     EXPECT_GE(real(solid.radius), outer);
     EXPECT_LE(real(solid.radius), outer + std::ldexp(1.0L, -20));
     Real inner = 1e9L;
-    for (const auto& face : hull->polytope()->faces) {
+    for (const auto& face : hull->geometry().polytope()->faces) {
       const RealVec n = real(face.normal);
       const Real height = std::ldexp(static_cast<Real>(face.offset), -geometry::k_fine_bits);
       inner = std::min(inner, (height - dot(centre, n)) / norm(n));

@@ -3,6 +3,7 @@
 
 #include <lockstone/hull.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/solid.h"
 #include "core/geometry/numeric/exact_plane.h"
@@ -143,9 +144,9 @@ TEST(Hull, IsAClosedConvexSurfaceThatHoldsItsPoints) {
   for_random_clouds([](Dice&, const NamedCloud& cloud) {
     const HullResult result = Hull::build(cloud.points, {.max_vertices = k_max_hull_vertices});
     ASSERT_TRUE(result.ok()) << to_string(result.fault);
-    const Polytope& p = *result.hull->polytope();
+    const Polytope& p = *result.hull->geometry().polytope();
     expect_closed_surface(p);
-    const Fine tolerance = default_tolerance(result.hull->bounds());
+    const Fine tolerance = default_tolerance(result.hull->geometry().bounds());
     expect_supporting_planes(p, tolerance);
     for (const Vec3<Length>& point : cloud.points) {
       for (const PolytopeFace& face : p.faces)
@@ -179,10 +180,12 @@ TEST(Hull, HasExactFacesWhereThePointsAreInGeneralPosition) {
     const HullOptions options{.tolerance = Length::from_raw(1), .max_vertices = 128};
     const HullResult result = Hull::build(cloud, options);
     ASSERT_TRUE(result.ok());
-    EXPECT_EQ(count_exact_faces(*result.hull->polytope(), cloud), result.hull->face_count());
+    EXPECT_EQ(count_exact_faces(*result.hull->geometry().polytope(), cloud),
+              result.hull->face_count());
     Cloud more = cloud;  // and the count can tell
     more.push_back(metres(result.hull->vertices()[0].x < Length{} ? -512 : 512, 0, 0));
-    EXPECT_LT(count_exact_faces(*result.hull->polytope(), more), result.hull->face_count());
+    EXPECT_LT(count_exact_faces(*result.hull->geometry().polytope(), more),
+              result.hull->face_count());
   }
 }
 
@@ -268,8 +271,8 @@ TEST(Hull, OfMirroredPointsIsTheMirroredHull) {
     ASSERT_TRUE(one.ok() && other.ok());
     EXPECT_EQ(faces_of(*one.hull, axis), faces_of(*other.hull, -1));
     EXPECT_NE(one.hull->id(), other.hull->id());  // the comparison can tell them apart
-    EXPECT_EQ(one.hull->solid()->volume, other.hull->solid()->volume);
-    EXPECT_EQ(one.hull->solid()->radius, other.hull->solid()->radius);
+    EXPECT_EQ(one.hull->geometry().solid()->volume, other.hull->geometry().solid()->volume);
+    EXPECT_EQ(one.hull->geometry().solid()->radius, other.hull->geometry().solid()->radius);
   }
 }
 
@@ -350,7 +353,7 @@ TEST(Hull, StandsAnyTolerance) {
     const HullOptions options{.tolerance = dice.size(0.001, 500)};
     const HullResult result = Hull::build(cloud, options);
     ASSERT_TRUE(result.ok());
-    expect_closed_surface(*result.hull->polytope());
+    expect_closed_surface(*result.hull->geometry().polytope());
   }
 }
 
@@ -366,8 +369,9 @@ TEST(HullBytes, GiveTheSameHull) {
     EXPECT_EQ(hull.id(), built.hull->id());
     EXPECT_FALSE(hull.id().is_null());
     EXPECT_EQ(hull.canonical_bytes(), bytes);
-    EXPECT_TRUE(std::ranges::equal(hull.polytope()->edges, built.hull->polytope()->edges));
-    EXPECT_EQ(hull.solid()->inertia, built.hull->solid()->inertia);
+    EXPECT_TRUE(std::ranges::equal(hull.geometry().polytope()->edges,
+                                   built.hull->geometry().polytope()->edges));
+    EXPECT_EQ(hull.geometry().solid()->inertia, built.hull->geometry().solid()->inertia);
   });
 }
 
@@ -438,17 +442,17 @@ TEST(Hull, IsOnePartWhereItsBoundsAreMet) {
   const HullResult result = Hull::build(moved(box(1, 2, 3), metres(10, 0, 0)));
   ASSERT_TRUE(result.ok());
   const Hull& hull = *result.hull;
-  EXPECT_EQ(hull.bounds(), (geometry::LocalBounds{metres(9, -2, -3), metres(11, 2, 3)}));
+  EXPECT_EQ(hull.geometry().bounds(), (geometry::LocalBounds{metres(9, -2, -3), metres(11, 2, 3)}));
   EXPECT_EQ(validate(hull.shape()), Status::ok);
   CountInRegion in_region;
-  hull.visit_parts({metres(11, 2, 3), metres(12, 3, 4)}, in_region);
+  hull.geometry().visit_parts({metres(11, 2, 3), metres(12, 3, 4)}, in_region);
   EXPECT_EQ(in_region.count, 1);
-  hull.visit_parts({metres(11, 2, 3.1), metres(12, 3, 4)}, in_region);
+  hull.geometry().visit_parts({metres(11, 2, 3.1), metres(12, 3, 4)}, in_region);
   EXPECT_EQ(in_region.count, 1);
   CountOnRay on_ray;
-  hull.visit_parts_on_way({}, metres(8, 0, 0), {}, on_ray);
+  hull.geometry().visit_parts_on_way({}, metres(8, 0, 0), {}, on_ray);
   EXPECT_EQ(on_ray.count, 0);
-  hull.visit_parts_on_way({}, metres(9, 0, 0), {}, on_ray);
+  hull.geometry().visit_parts_on_way({}, metres(9, 0, 0), {}, on_ray);
   EXPECT_EQ(on_ray.count, 1);
 }
 

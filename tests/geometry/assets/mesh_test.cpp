@@ -5,6 +5,7 @@
 
 #include <lockstone/hash.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "tests/geometry/assets/asset_parts.h"
 
 namespace lockstone::test {
@@ -253,7 +254,7 @@ TEST(Mesh, ReturnsFromItsBytes) {
   EXPECT_EQ(back.value()->id(), mesh->id());
   EXPECT_EQ(back.value()->canonical_bytes(), bytes);
   EXPECT_EQ(all_parts(*back.value())[5].surface->friction, Coefficient::from_ratio(1, 8));
-  EXPECT_EQ(mesh->solid(), nullptr);
+  EXPECT_EQ(mesh->geometry().solid(), nullptr);
 }
 
 TEST(Mesh, AnswersBadBytesWithAnError) {
@@ -294,7 +295,7 @@ TEST(Mesh, ShowsThePartsOfARegionInOrder) {
   for (int i = 0; i < 200; ++i) {
     const LocalBounds region = random_region(dice, 20, 10);
     CollectParts collect;
-    mesh->visit_parts(region, collect);
+    mesh->geometry().visit_parts(region, collect);
     std::vector<std::uint32_t> expected;
     for (const SeenPart& part : all)
       if (overlap(geometry::bounds_of(part.vertices), region)) expected.push_back(part.index);
@@ -312,7 +313,7 @@ TEST(Mesh, ShowsEveryPartWhoseBoundsARayMeets) {
     const Vec3<Length> origin = random_region(dice, 40, 1).lower;
     const Vec3<Length> way = random_region(dice, 60, 1).lower;
     CollectRayParts collect;
-    mesh->visit_parts_on_way(origin, way, {}, collect);
+    mesh->geometry().visit_parts_on_way(origin, way, {}, collect);
     std::sort(collect.parts.begin(), collect.parts.end());
     for (const SeenPart& part : all) {
       const bool found = std::binary_search(collect.parts.begin(), collect.parts.end(), part.index);
@@ -334,7 +335,7 @@ void for_random_triangles(const Check& check) {
   } visitor(check);
   Dice dice;
   const auto mesh = built(random_triangles(dice, 200, 500, 10).def());
-  mesh->visit_parts(mesh->bounds(), visitor);
+  mesh->geometry().visit_parts(mesh->geometry().bounds(), visitor);
 }
 
 TEST(Mesh, ShowsTrianglesAsPolytopesOfTwoFaces) {

@@ -6,6 +6,7 @@
 #include <lockstone/compound.h>
 #include <lockstone/hull.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/compound_solid.h"
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/shape_traits.h"
@@ -134,7 +135,7 @@ HullPtr box_as_hull(const Shape& box, const Mat3& rotation, const Vec3<Length>& 
 }
 
 PosedShape posed_hull(const HullPtr& hull, const Shape& shape, const Mat3& rotation) {
-  return {shape, rotation, hull->polytope()};
+  return {shape, rotation, hull->geometry().polytope()};
 }
 
 TEST(RoundedHulls, HaveTheMassOfTheirFinestFacets) {
@@ -143,8 +144,8 @@ TEST(RoundedHulls, HaveTheMassOfTheirFinestFacets) {
     const HullPtr hull = random_rounded_hull(dice, static_cast<int>(dice.between(7, 16)), 1,
                                              dice.uniform(0.05, 1.5));
     if (hull == nullptr) continue;
-    const geometry::Polytope& p = *hull->polytope();
-    const geometry::Solid& solid = *hull->solid();
+    const geometry::Polytope& p = *hull->geometry().polytope();
+    const geometry::Solid& solid = *hull->geometry().solid();
     RealIntegrals truth;
     truth.add_less(faceted(p, 96), faceted(p, 48));
     const Real volume = std::ldexp(static_cast<Real>(solid.volume.mantissa), solid.volume.exponent);
@@ -183,7 +184,7 @@ TEST(RoundedHulls, OfBoxesHaveTheMassOfRoundedBoxes) {
     const Shape rounded = Shape::rounded_box(box.size.x, box.size.y, box.size.z, radius);
     const auto hull = box_as_hull(box, Mat3{}, metres(1, -2, 3), radius);
     ASSERT_NE(hull, nullptr);
-    const geometry::Solid &found = *hull->solid(), wanted = geometry::solid_of(rounded);
+    const geometry::Solid &found = *hull->geometry().solid(), wanted = geometry::solid_of(rounded);
     const auto volume = [](const geometry::Solid& s) {
       return std::ldexp(static_cast<double>(s.volume.mantissa), s.volume.exponent);
     };
@@ -254,10 +255,10 @@ TEST(RoundedHulls, OfBoxesHaveTheSameShareUnderWater) {
                         3 * part.scale - geometry::k_submerged_bits);
     };
     const double wanted = value(geometry::part_below({rounded, nullptr}, plane));
-    const double found = value(geometry::part_below({of_hull, hull->polytope()}, plane));
+    const double found = value(geometry::part_below({of_hull, hull->geometry().polytope()}, plane));
     const double whole = value(geometry::whole({rounded, nullptr}));
     ASSERT_NEAR(found / whole, wanted / whole, 1e-6);
-    const geometry::SubmergedPart all = geometry::whole({of_hull, hull->polytope()});
+    const geometry::SubmergedPart all = geometry::whole({of_hull, hull->geometry().polytope()});
     ASSERT_NEAR(value(all) / whole, 1, 1e-8);
   }
 }
@@ -271,7 +272,7 @@ TEST(RoundedHulls, KeepTheirRadiusInTheirBytes) {
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(again.value()->id(), hull->id());
   EXPECT_EQ(again.value()->radius(), metres(0.2));
-  EXPECT_EQ(again.value()->solid()->inertia, hull->solid()->inertia);
+  EXPECT_EQ(again.value()->geometry().solid()->inertia, hull->geometry().solid()->inertia);
   const auto sharp = Hull::build(hull->vertices(), {.tolerance = Length::from_raw(2)}).hull;
   EXPECT_NE(sharp->id(), hull->id());
   EXPECT_EQ(sharp->canonical_bytes().size() + 4, bytes.size());

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/solid.h"
 #include "tools/bench/accuracy/accuracy.h"
 #include "tools/bench/accuracy/reference_mass.h"
@@ -104,7 +105,8 @@ Errors compound_errors(Dice& dice, fuzz::HullPool& pool) {
     children.push_back(random_child(dice, pool));
   const CompoundResult result = Compound::build(children);
   if (!result.ok()) return {};
-  return errors_of(*result.compound->solid(), mass_of_compound(result.compound->children()));
+  return errors_of(*result.compound->geometry().solid(),
+                   mass_of_compound(result.compound->children()));
 }
 
 void add_results(const char* of, const Errors& errors, std::vector<AccuracyResult>& results) {
@@ -128,7 +130,7 @@ std::vector<AccuracyResult> measure_masses(const AccuracyOptions& options) {
         for (std::uint64_t i = options.first + first; i < options.first + first + count; ++i) {
           Dice dice(options.seed, i);
           const auto hull = fuzz::random_hull(dice);
-          hull_part.add(errors_of(*hull->solid(), mass_of_hull(hull->vertices())));
+          hull_part.add(errors_of(*hull->geometry().solid(), mass_of_hull(hull->vertices())));
           compound_part.add(compound_errors(dice, pool));
         }
         const std::lock_guard lock(mutex);

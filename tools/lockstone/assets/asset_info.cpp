@@ -12,6 +12,7 @@
 #include <lockstone/path.h>
 #include <lockstone/testing/floating.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/solid.h"
 #include "tools/lockstone/support/console.h"
@@ -95,9 +96,9 @@ ordered_json asset_json(const std::string& file, const Asset& asset) {
                     {"id", hash_text(asset.id().value)},
                     {"bytes", asset.canonical_bytes().size()}};
   add_counts(asset, json);
-  json["lower"] = vector_json(asset.bounds().lower);
-  json["upper"] = vector_json(asset.bounds().upper);
-  if (const geometry::Solid* solid = asset.solid()) add_mass(*solid, json);
+  json["lower"] = vector_json(asset.geometry().bounds().lower);
+  json["upper"] = vector_json(asset.geometry().bounds().upper);
+  if (const geometry::Solid* solid = asset.geometry().solid()) add_mass(*solid, json);
   if (const auto* compound = dynamic_cast<const Compound*>(&asset)) {
     json["hulls"] = ordered_json::array();
     for (const CompoundChild& child : compound->children())

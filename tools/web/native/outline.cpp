@@ -89,7 +89,7 @@ class Outline final : public geometry::PartVisitor {
 
 Outline outline_of(const World& world, BodyHandle body) {
   const Shape shape = world.body(body).shape;
-  const Asset* asset = asset_of(world, body);
+  const geometry::AssetGeometry* asset = geometry_of(world, body);
   const Mat3 straight = to_matrix(Quat{});
   Outline outline;
   if (asset == nullptr)

@@ -104,13 +104,13 @@ std::optional<HitEvent> hit_of_stop(const WorldData& world, const ContactEvent& 
 
 // A half-space has nothing behind it to come out at, and contacts find the bodies that
 // triangles sweep over.
-bool may_sweep(const BodyRecord& body, const Asset* asset) {
+bool may_sweep(const BodyRecord& body, const geometry::AssetGeometry* asset) {
   return body.shape().kind != ShapeKind::half_space &&
          (asset == nullptr || asset->mesh_kernels() == nullptr);
 }
 
 // Compounds may have parts much thinner than their thickest.
-Position sweeping_limit(Length inner_radius, const Asset* asset) {
+Position sweeping_limit(Length inner_radius, const geometry::AssetGeometry* asset) {
   constexpr Length k_least = Length::from_ratio(1, 1000);
   const bool has_parts = asset != nullptr && asset->polytope() == nullptr;
   return rounded<Position>(has_parts ? k_least : max(inner_radius / 2, k_least));

@@ -20,12 +20,12 @@ PlacedShape moved_by(PlacedShape placed, const Vec3<Position>& way) {
 // the tick's beginning.
 FrontPush find_front(const WorldData& world, std::uint32_t body, const Vec3<Position>& start) {
   const BodyRecord& record = world.bodies[body];
-  const Asset* asset = world.cache.asset(body);
+  const geometry::AssetGeometry* asset = world.cache.asset(body);
   const Bounds way = bounds_of_way(start, record.position, bounding_radius(record.shape(), asset));
   FrontPush first;
   std::uint32_t body_of_first = 0;
   const auto look_at = [&](std::uint32_t other) {
-    const Asset* mesh = world.cache.asset(other);
+    const geometry::AssetGeometry* mesh = world.cache.asset(other);
     if (mesh == nullptr || mesh->mesh_kernels() == nullptr || !world.is_obstacle(body, other) ||
         is_one_way(world.bodies[other]))
       return;

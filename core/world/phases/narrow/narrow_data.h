@@ -45,7 +45,7 @@ struct NarrowData {
 
 /// Whether the body has one part, 0: no compound and no mesh.
 [[nodiscard]] inline bool has_one_piece(const WorldData& world, std::uint32_t body) {
-  const Asset* asset = world.cache.asset(body);
+  const geometry::AssetGeometry* asset = world.cache.asset(body);
   return asset == nullptr || asset->polytope() != nullptr;
 }
 

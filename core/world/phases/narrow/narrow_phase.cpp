@@ -52,7 +52,9 @@ NarrowPhase::NarrowPhase(WorldData& world, TickContacts& found) : data_(world, f
 }
 
 void NarrowPhase::make_room() {
-  const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
+  const auto has_triangles = [](const AssetPtr& asset) {
+    return asset->geometry().mesh_kernels() != nullptr;
+  };
   data_.ids.prepare(data_.world.def.contact_capacity, data_.world.parallel.workers(),
                     std::ranges::any_of(data_.world.assets->all(), has_triangles));
   const std::size_t most = data_.ids.capacity();

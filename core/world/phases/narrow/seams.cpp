@@ -190,7 +190,7 @@ bool SeamSearch::is_covered(const SeamContact& contact, const TouchedPoint& at) 
   for (std::uint32_t i = first_; i < end_; ++i) {
     const std::uint32_t other = data_.pairs[i].b;
     if (!is_static(i) || !overlap(near, world_.broad_phase.bounds(other))) continue;
-    const Asset* asset = world_.cache.asset(other);
+    const geometry::AssetGeometry* asset = world_.cache.asset(other);
     const bool is_own = other == contact.other;
     if (is_own && asset != nullptr && asset->mesh_kernels() != nullptr) continue;
     if (world_.are_exempt(body_, other) || is_passing(i)) continue;

@@ -87,7 +87,7 @@ class Finder {
  private:
   PosedShape posed(int body) const {
     const Body& b = system_.bodies[body];
-    return {b.shape, axes_[body], b.hull ? b.hull->polytope() : nullptr};
+    return {b.shape, axes_[body], b.hull ? b.hull->geometry().polytope() : nullptr};
   }
 
   void add(int a, int b, const Manifold& manifold, const ManifoldPoint& point) {
