@@ -1,16 +1,11 @@
 // Cylinders and cones: sizes, masses, rays, distances and contacts against long double.
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/dispatch/raycast.h"
-#include "core/geometry/distance/epa/epa.h"
-#include "core/geometry/distance/gjk/gjk.h"
-#include "core/geometry/distance/manifold_checks.h"
-#include "core/geometry/distance/motion/shape_cast.h"
-#include "tests/geometry/scene.h"
+#include "tests/geometry/pairs/pair_laws.h"
 
 namespace lockstone::test {
 namespace {
 
-const Real k_rim_pi = std::acos(Real{-1});
 constexpr std::array<ShapeKind, 2> k_rim_kinds{ShapeKind::cylinder, ShapeKind::cone};
 
 Shape rim_shape(ShapeKind kind, Length x, Length y) {
@@ -22,60 +17,12 @@ Shape random_rim_shape(Dice& dice, double low, double high) {
   return rim_shape(kind, dice.size(low, high), dice.size(low, high));
 }
 
-template <class Quantity>
-double metres_of(Quantity x) {
-  return static_cast<double>(real(x));
-}
-
-/// A cylinder or cone in long double, in its own frame.
-struct RealRims {
-  Real radius, top_radius, low, high;
-
-  explicit RealRims(const Shape& shape) {
-    const Real y = real(shape.size.y);
-    const bool cone = shape.kind == ShapeKind::cone;
-    radius = real(shape.size.x);
-    top_radius = cone ? 0 : radius;
-    low = cone ? -y / 4 : -y;
-    high = cone ? y * 3 / 4 : y;
-  }
-
-  [[nodiscard]] Real reach(const RealVec& n) const {
-    const Real flat = std::sqrt(n.x * n.x + n.z * n.z);
-    return std::max(n.y * low + flat * radius, n.y * high + flat * top_radius);
-  }
-  /// How far a point is outside all bounding planes: not positive inside, at most the distance.
-  [[nodiscard]] Real beyond(const RealVec& p) const {
-    const Real slope = radius - top_radius, rise = high - low;
-    const Real length = std::sqrt(slope * slope + rise * rise);
-    const Real flat = std::sqrt(p.x * p.x + p.z * p.z);
-    const Real side = ((flat - top_radius) * rise + (p.y - high) * slope) / length;
-    return std::max(side, std::max(low - p.y, p.y - high));
-  }
-};
-
-RealVec in_frame(const Mat3& rotation, const RealVec& v) {
-  return {dot(real(rotation.x), v), dot(real(rotation.y), v), dot(real(rotation.z), v)};
-}
-
-/// Reach of any primitive from its centre.
-Real rim_reach_of(const PosedShape& posed, const RealVec& n) {
-  if (posed.shape.kind > ShapeKind::compound)
-    return RealRims(posed.shape).reach(in_frame(posed.rotation, n));
-  return Placed(posed, {}).reach(n);
-}
-
-Real rim_separation_of(const PosedShape& a, const PosedShape& b, const RealVec& offset,
-                       const RealVec& n) {
-  return dot(offset, n) - rim_reach_of(a, n) - rim_reach_of(b, n * -1);
-}
-
 TEST(RimShapes, HaveTheMassOfTheClosedForm) {
   Dice dice;
   for (int i = 0; i < 10000; ++i) {
     const Shape shape = random_rim_shape(dice, 0.001, 512);
     const Real r = real(shape.size.x), y = real(shape.size.y);
-    const Real volume = k_rim_pi * r * r * (shape.kind == ShapeKind::cone ? y / 3 : 2 * y);
+    const Real volume = k_real_pi * r * r * (shape.kind == ShapeKind::cone ? y / 3 : 2 * y);
     const Density density = Density::from_raw(static_cast<std::int32_t>(dice.between(1, 1 << 22)));
     const Real truth = volume * real(density), step = std::ldexp(Real{1}, -Mass::frac_bits);
     if (truth > std::ldexp(Real{1}, 31) * (1 - 1e-9L)) continue;
@@ -212,18 +159,9 @@ TEST(RimShapes, FacesHaveUnitNormals) {
   }
 }
 
-struct RimPair {
-  Shape a, b;
-  Mat3 rotation_a, rotation_b;
-  Vec3<Length> offset;
-
-  [[nodiscard]] PosedShape posed_a() const { return {a, rotation_a}; }
-  [[nodiscard]] PosedShape posed_b() const { return {b, rotation_b}; }
-};
-
 /// At `least` to `most` of where they touch along the line of centres.
-RimPair random_rim_pair(Dice& dice, double least, double most) {
-  RimPair pair;
+ReachPair random_rim_pair(Dice& dice, double least, double most) {
+  ReachPair pair;
   pair.a = random_rim_shape(dice, 0.1, 3);
   const int other = static_cast<int>(dice.between(0, 4));
   pair.b = other < 3 ? dice.shape(static_cast<ShapeKind>(other), 0.1, 3)
@@ -231,71 +169,24 @@ RimPair random_rim_pair(Dice& dice, double least, double most) {
   pair.rotation_a = to_matrix(dice.orientation());
   pair.rotation_b = to_matrix(dice.orientation());
   const RealVec n = dice.direction();
-  const Real touching = rim_reach_of(pair.posed_a(), n) + rim_reach_of(pair.posed_b(), n * -1);
-  pair.offset = metres(n * (touching * static_cast<Real>(dice.uniform(least, most))));
+  pair.place(dice, n, least, most);
   return pair;
 }
 
 TEST(RimShapes, AreApartByTheDistanceAlongItsNormal) {
-  Dice dice;
-  for (int i = 0; i < 4000; ++i) {
-    const RimPair pair = random_rim_pair(dice, 1.0, 1.6);
-    const ClosestPoints found = distance(pair.posed_a(), pair.posed_b(), pair.offset);
-    if (found.overlapping) continue;
-    const RealVec offset = real(pair.offset), n = real(found.normal);
-    const Real separation = rim_separation_of(pair.posed_a(), pair.posed_b(), offset, n);
-    const Real apart = real(found.distance);
-    // Points on both surfaces are no nearer than the distance, planes separate by no more.
-    ASSERT_LE(separation, apart + 2 * k_micrometre);
-    ASSERT_GE(separation, apart - 4 * k_micrometre) << describe(pair.a) << describe(pair.b);
-    const RealVec between = real(found.point_b) + offset - real(found.point_a);
-    ASSERT_NEAR(static_cast<double>(norm(between)), static_cast<double>(apart), 4e-6);
-  }
+  expect_distances_along_normals(random_rim_pair, 6000, 4e-6);
 }
 
 TEST(RimShapes, OverlapByTheDepthAlongItsNormal) {
-  Dice dice;
-  for (int i = 0; i < 2000; ++i) {
-    const RimPair pair = random_rim_pair(dice, 0.6, 1.0);
-    const Penetration found = penetration(pair.posed_a(), pair.posed_b(), pair.offset);
-    if (!found.overlapping) continue;
-    const RealVec offset = real(pair.offset);
-    const Real separation =
-        rim_separation_of(pair.posed_a(), pair.posed_b(), offset, real(found.normal));
-    ASSERT_NEAR(static_cast<double>(separation), -static_cast<double>(real(found.depth)), 5e-6)
-        << describe(pair.a) << describe(pair.b);
-    for (int k = 0; k < 50; ++k) {
-      const Real other =
-          rim_separation_of(pair.posed_a(), pair.posed_b(), offset, dice.direction());
-      ASSERT_LE(other, separation + 5 * k_micrometre) << describe(pair.a) << describe(pair.b);
-    }
-  }
+  expect_depths_along_normals(random_rim_pair, 6000, 500);
 }
 
 TEST(RimShapes, TouchAtTheirLeastSeparation) {
-  Dice dice;
-  int contacts = 0;
-  for (int i = 0; i < 6000; ++i) {
-    const RimPair pair = random_rim_pair(dice, 0.8, 1.05);
-    const Manifold m = collide(pair.posed_a(), pair.posed_b(), pair.offset, metres(0.01));
-    const Manifold back = collide(pair.posed_b(), pair.posed_a(), -pair.offset, metres(0.01));
-    ASSERT_EQ(m.count, back.count);
-    if (m.count == 0) continue;
-    ++contacts;
-    ASSERT_EQ(m.normal, -back.normal);
-    ASSERT_EQ(features_of(m).size(), static_cast<std::size_t>(m.count));
-    const Real along =
-        rim_separation_of(pair.posed_a(), pair.posed_b(), real(pair.offset), real(m.normal));
-    ASSERT_NEAR(static_cast<double>(deepest(m)), static_cast<double>(along), 3e-5)
-        << describe(pair.a) << describe(pair.b);
-    // No axis separates by much more.
-    const Penetration deep = penetration(pair.posed_a(), pair.posed_b(), pair.offset);
-    if (deep.overlapping) {
-      ASSERT_GE(deepest(m), -real(deep.depth) * 1.12L - 0.0006L)
-          << describe(pair.a) << describe(pair.b) << m.count << " " << m.points[0].feature;
-    }
-  }
-  EXPECT_GT(contacts, 1500);
+  expect_contacts_at_least_separation(random_rim_pair, 6000);
+}
+
+TEST(RimShapes, AreMetBySweptShapesWhereTheyTouch) {
+  expect_casts_end_where_shapes_touch(random_rim_pair);
 }
 
 TEST(RimShapes, StandOnFourPointsOfAFlatFace) {
@@ -314,7 +205,7 @@ TEST(RimShapes, StandOnFourPointsOfAFlatFace) {
       Real widest = 0;
       for (const ManifoldPoint& p : m.points) {
         EXPECT_NEAR(static_cast<double>(real(p.separation)), -0.001, 1e-6);
-        EXPECT_NEAR(std::hypot(metres_of(p.anchor_b.x), metres_of(p.anchor_b.z)), 0.5, 2e-6);
+        EXPECT_NEAR(std::hypot(as_double(p.anchor_b.x), as_double(p.anchor_b.z)), 0.5, 2e-6);
         widest = std::max(widest, norm(real(p.anchor_b) - real(m.points[0].anchor_b)));
       }
       EXPECT_GT(widest, 0.9L);
@@ -334,9 +225,9 @@ TEST(RimShapes, LieOnTwoPointsOfTheLineThatTouches) {
     EXPECT_EQ(m.normal, upright.y);
     for (int i = 0; i < 2; ++i) {
       const ManifoldPoint& p = m.points[static_cast<std::size_t>(i)];
-      EXPECT_NEAR(metres_of(p.anchor_b.x), 0, 2e-6);
-      EXPECT_NEAR(metres_of(p.anchor_b.y), -0.5, 2e-6);
-      EXPECT_NEAR(std::fabs(metres_of(p.anchor_b.z)), 1, 2e-6);
+      EXPECT_NEAR(as_double(p.anchor_b.x), 0, 2e-6);
+      EXPECT_NEAR(as_double(p.anchor_b.y), -0.5, 2e-6);
+      EXPECT_NEAR(std::fabs(as_double(p.anchor_b.z)), 1, 2e-6);
     }
   }
 }
@@ -348,8 +239,8 @@ TEST(RimShapes, RollOnEachOtherAlongTheirCommonLine) {
   const Manifold m =
       collide({lower, lying}, {upper, lying}, metres(0.48, 0.6399, 0.1), metres(0.02));
   ASSERT_EQ(m.count, 2);
-  EXPECT_NEAR(metres_of(m.normal.x), 0.6, 1e-4);
-  EXPECT_NEAR(metres_of(m.normal.z), 0, 1e-9);
+  EXPECT_NEAR(as_double(m.normal.x), 0.6, 1e-4);
+  EXPECT_NEAR(as_double(m.normal.z), 0, 1e-9);
 }
 
 TEST(RimShapes, MeetASweptShapeWhereTheyTouch) {
@@ -358,12 +249,12 @@ TEST(RimShapes, MeetASweptShapeWhereTheyTouch) {
   const ShapeCastHit side =
       cast_shape({drum, upright}, {ball, upright}, metres(3, 0, 0), metres(-4, 0, 0), Unit::max());
   ASSERT_TRUE(side.hit);
-  EXPECT_NEAR(metres_of(side.fraction), 2.25 / 4, 2e-6);
-  EXPECT_NEAR(metres_of(side.normal.x), 1, 1e-6);
+  EXPECT_NEAR(as_double(side.fraction), 2.25 / 4, 2e-6);
+  EXPECT_NEAR(as_double(side.normal.x), 1, 1e-6);
   const ShapeCastHit top = cast_shape({drum, upright}, {ball, upright}, metres(0.2, 3, 0.1),
                                       metres(0, -4, 0), Unit::max());
   ASSERT_TRUE(top.hit);
-  EXPECT_NEAR(metres_of(top.fraction), 1.75 / 4, 2e-6);
+  EXPECT_NEAR(as_double(top.fraction), 1.75 / 4, 2e-6);
 }
 
 }  // namespace

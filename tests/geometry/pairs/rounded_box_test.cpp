@@ -1,78 +1,10 @@
 // Rounded boxes: sizes, masses, rays, distances, depths and contacts against long double.
 #include "core/geometry/convex/compound_solid.h"
 #include "core/geometry/convex/shape_traits.h"
-#include "core/geometry/dispatch/raycast.h"
-#include "core/geometry/distance/epa/epa.h"
-#include "core/geometry/distance/gjk/gjk.h"
-#include "core/geometry/distance/manifold_checks.h"
-#include "core/geometry/distance/motion/shape_cast.h"
-#include "core/geometry/distance/motion/time_of_impact.h"
-#include "tests/geometry/scene.h"
+#include "tests/geometry/pairs/pair_laws.h"
 
 namespace lockstone::test {
 namespace {
-
-const Real k_round_pi = std::acos(Real{-1});
-
-template <class Quantity>
-double round_number(Quantity x) {
-  return static_cast<double>(real(x));
-}
-
-/// A rounded box in long double.
-struct RealRounded {
-  RealVec half;
-  Real radius;
-
-  explicit RealRounded(const Shape& shape)
-      : half(real(shape.size)), radius(real(shape.fourth_size())) {}
-
-  /// ∫ f(z) A(z) dz over the sections across an axis, each a rectangle rounded by √(r² − t²): by
-  /// Gauss and Legendre in the core, by Simpson's rule in the angle of the caps.
-  template <class F>
-  [[nodiscard]] Real integral(int axis, F f) const {
-    const Real a = half[(axis + 1) % 3], b = half[(axis + 2) % 3], c = half[axis];
-    const auto area = [&](Real round) {
-      return 4 * a * b + 4 * round * (a + b) + k_round_pi * round * round;
-    };
-    const Real inner = c / std::sqrt(Real{3});  // exact for squares
-    Real sum = area(radius) * c * (f(-inner) + f(inner));
-    constexpr int k_steps = 512;
-    for (int i = 0; i <= k_steps; ++i) {
-      const Real angle = k_round_pi / 2 * i / k_steps;
-      const Real t = radius * std::sin(angle), round = radius * std::cos(angle);
-      const Real weight = i == 0 || i == k_steps ? 1 : 2 + 2 * (i % 2);
-      sum += weight * round * area(round) * (f(c + t) + f(-c - t)) * k_round_pi / 2 / k_steps / 3;
-    }
-    return sum;
-  }
-  [[nodiscard]] Real volume() const {
-    return integral(0, [](Real) { return 1; });
-  }
-  [[nodiscard]] Real square(int axis) const {
-    return integral(axis, [](Real x) { return x * x; });
-  }
-
-  [[nodiscard]] Real reach(const RealVec& n) const {
-    return std::fabs(n.x) * half.x + std::fabs(n.y) * half.y + std::fabs(n.z) * half.z +
-           radius * norm(n);
-  }
-  /// Distance from the surface, negative inside.
-  [[nodiscard]] Real outside(const RealVec& p) const {
-    RealVec beyond;
-    Real most = -1e30L;
-    for (int k = 0; k < 3; ++k) {
-      const Real over = std::fabs(p[k]) - half[k];
-      most = std::max(most, over);
-      beyond[k] = std::max(over, Real{0});
-    }
-    return (most > 0 ? norm(beyond) : most) - radius;
-  }
-};
-
-RealVec in_round_frame(const Mat3& rotation, const RealVec& v) {
-  return {dot(real(rotation.x), v), dot(real(rotation.y), v), dot(real(rotation.z), v)};
-}
 
 Shape random_rounded(Dice& dice, double low, double high) {
   const Length radius = dice.size(low, high);
@@ -80,21 +12,6 @@ Shape random_rounded(Dice& dice, double low, double high) {
   const Length x = core(), y = core(), z = core();
   return Shape::rounded_box(max(x, k_min_shape_size), max(y, k_min_shape_size),
                             max(z, k_min_shape_size), radius);
-}
-
-Real round_reach_of(const PosedShape& posed, const RealVec& n) {
-  const RealVec local = in_round_frame(posed.rotation, n), size = real(posed.shape.size);
-  const Real flat = std::sqrt(local.x * local.x + local.z * local.z);
-  switch (posed.shape.kind) {
-    case ShapeKind::rounded_box:
-      return RealRounded(posed.shape).reach(local);
-    case ShapeKind::cylinder:
-      return std::fabs(local.y) * size.y + flat * size.x;
-    case ShapeKind::cone:
-      return std::max(local.y * size.y * 3 / 4, flat * size.x - local.y * size.y / 4);
-    default:
-      return Placed(posed, {}).reach(n);
-  }
 }
 
 TEST(RoundedBoxes, HaveTheMassOfTheIntegral) {
@@ -135,7 +52,7 @@ TEST(RoundedBoxes, HaveTheInertiaOfTheIntegral) {
 TEST(RoundedBoxes, TendToBoxesBallsAndCapsules) {
   const Density density = Density::from_integer(1000);
   const auto expect_like = [&](const Shape& rounded, const Shape& other, double share) {
-    EXPECT_NEAR(round_number(mass_of(rounded, density)) / round_number(mass_of(other, density)), 1,
+    EXPECT_NEAR(as_double(mass_of(rounded, density)) / as_double(mass_of(other, density)), 1,
                 share);
     const auto moments = [](const Shape& shape) {
       return real(normalized_inertia(shape)) * std::ldexp(Real{1}, 2 * scale_exponent(shape));
@@ -175,7 +92,7 @@ TEST(RoundedBoxes, LieBetweenTheirRadiiAndWithinTheirBounds) {
     for (int k = 0; k < 3; ++k) {
       RealVec axis;
       axis[k] = 1;
-      const Real most = truth.reach(in_round_frame(rotation, axis));
+      const Real most = truth.reach(in_frame(rotation, axis));
       ASSERT_GE(found[k], most - 1e-6L) << describe(shape);
       ASSERT_LE(found[k], most + 2 * k_micrometre) << describe(shape);
     }
@@ -214,59 +131,12 @@ TEST(RoundedBoxes, ShrinkBelowTheirSurface) {
 }
 
 TEST(RoundedBoxes, AreMetByRaysWhereTheirSurfaceIs) {
-  Dice dice;
-  int hits = 0;
-  for (int i = 0; i < 6000; ++i) {
-    const Shape shape = random_rounded(dice, 0.05, 20);
-    const RealRounded truth(shape);
-    const Mat3 rotation = to_matrix(dice.orientation());
-    const Real size = real(bounding_radius(shape));
-    const RealVec from = dice.direction() * (size * static_cast<Real>(dice.uniform(0.1, 4)));
-    const RealVec to = dice.direction() * (size * static_cast<Real>(dice.uniform(0, 1)));
-    const Vec3<Length> origin = metres(from), way = metres((to - from) * 2);
-    const ShapeRayHit hit = cast_ray(shape, rotation, origin, way);
-    const RealVec start = in_round_frame(rotation, real(origin));
-    const RealVec step = in_round_frame(rotation, real(way));
-    const Real slack = 2 * k_micrometre + size * 1e-8L;
-    const Real last = hit.hit ? real(hit.fraction) : 1;
-    if (hit.hit && hit.fraction == Unit{}) {
-      ASSERT_LE(truth.outside(start), slack);
-      continue;
-    }
-    for (int k = 0; k <= 24 && (!hit.hit || k < 24); ++k)
-      ASSERT_GT(truth.outside(start + step * (last * k / 24)), -slack) << describe(shape);
-    if (!hit.hit) continue;
-    ++hits;
-    const Real at = truth.outside(start + step * last);
-    ASSERT_LE(std::fabs(at), slack + norm(step) * 2e-9L) << describe(shape);
-    const RealVec normal = in_round_frame(rotation, real(hit.normal));
-    ASSERT_LE(truth.reach(normal) - dot(normal, start + step * last), slack * 20)
-        << describe(shape);
-  }
-  EXPECT_GT(hits, 1500);
+  expect_rays_end_at_surfaces<RealRounded>(random_rounded);
 }
 
-struct RoundedPair {
-  Shape a, b;
-  Mat3 rotation_a, rotation_b;
-  Vec3<Length> offset;
-
-  [[nodiscard]] PosedShape posed_a() const { return {a, rotation_a}; }
-  [[nodiscard]] PosedShape posed_b() const { return {b, rotation_b}; }
-  [[nodiscard]] Real separation(const RealVec& n) const {
-    return dot(real(offset), n) - round_reach_of(posed_a(), n) - round_reach_of(posed_b(), n * -1);
-  }
-  [[nodiscard]] std::string text() const {
-    return describe(a) + " R " + describe(rotation_a) + "\n" + describe(b) + " R " +
-           describe(rotation_b) + "\n" + std::to_string(offset.x.raw) + "," +
-           std::to_string(offset.y.raw) + "," + std::to_string(offset.z.raw) + " radii " +
-           std::to_string(a.fourth_size().raw) + "," + std::to_string(b.fourth_size().raw);
-  }
-};
-
 /// At `least` to `most` of where they touch along the line of centres.
-RoundedPair random_rounded_pair(Dice& dice, double least, double most) {
-  RoundedPair pair;
+ReachPair random_rounded_pair(Dice& dice, double least, double most) {
+  ReachPair pair;
   pair.a = random_rounded(dice, 0.1, 3);
   const Length x = dice.size(0.1, 3), y = dice.size(0.1, 3);
   switch (dice.between(0, 5)) {
@@ -297,73 +167,24 @@ RoundedPair random_rounded_pair(Dice& dice, double least, double most) {
   const RealVec n = dice.chance(4)
                         ? real(pair.rotation_a.column(static_cast<int>(dice.between(0, 2))))
                         : dice.direction();
-  const Real touching = round_reach_of(pair.posed_a(), n) + round_reach_of(pair.posed_b(), n * -1);
-  pair.offset = metres(n * (touching * static_cast<Real>(dice.uniform(least, most))));
+  pair.place(dice, n, least, most);
   return pair;
 }
 
 TEST(RoundedBoxes, AreApartByTheDistanceAlongItsNormal) {
-  Dice dice;
-  for (int i = 0; i < 6000; ++i) {
-    const RoundedPair pair = random_rounded_pair(dice, 0.9, 1.6);
-    const ClosestPoints found = distance(pair.posed_a(), pair.posed_b(), pair.offset);
-    const ClosestPoints back = distance(pair.posed_b(), pair.posed_a(), -pair.offset);
-    ASSERT_EQ(found.distance, back.distance);
-    ASSERT_EQ(found.normal, -back.normal);
-    ASSERT_EQ(found.point_a, back.point_b);
-    if (found.overlapping) continue;
-    const Real apart = real(found.distance), along = pair.separation(real(found.normal));
-    ASSERT_NEAR(static_cast<double>(along), static_cast<double>(apart), 2e-6) << pair.text();
-    const RealVec between = real(found.point_b) + real(pair.offset) - real(found.point_a);
-    ASSERT_NEAR(static_cast<double>(norm(between)), static_cast<double>(apart), 4e-6)
-        << pair.text();
-  }
+  expect_distances_along_normals(random_rounded_pair, 6000, 2e-6);
 }
 
 TEST(RoundedBoxes, OverlapByTheDepthAlongItsNormal) {
-  Dice dice;
-  int deep = 0;
-  for (int i = 0; i < 6000; ++i) {
-    const RoundedPair pair = random_rounded_pair(dice, 0.0, 1.0);
-    const Penetration found = penetration(pair.posed_a(), pair.posed_b(), pair.offset);
-    if (!found.overlapping) continue;
-    if (distance(pair.posed_a(), pair.posed_b(), pair.offset).cores_overlap) ++deep;
-    const RealVec normal = real(found.normal);
-    const Real along = pair.separation(normal);
-    ASSERT_NEAR(static_cast<double>(along), -static_cast<double>(real(found.depth)), 5e-6)
-        << pair.text();
-    for (int k = 0; k < 60; ++k) {
-      // Half of them near the direction found.
-      RealVec n = dice.direction();
-      if (k % 2 == 0) n = normal + n * 0.05L;
-      const Real other = pair.separation(n * (1 / norm(n)));
-      ASSERT_LE(other, along + 5 * k_micrometre) << pair.text();
-    }
-  }
-  EXPECT_GT(deep, 500);
+  expect_depths_along_normals(random_rounded_pair, 6000, 500);
 }
 
 TEST(RoundedBoxes, TouchAtTheirLeastSeparation) {
-  Dice dice;
-  int contacts = 0;
-  for (int i = 0; i < 12000; ++i) {
-    const RoundedPair pair = random_rounded_pair(dice, 0.8, 1.05);
-    const Manifold m = collide(pair.posed_a(), pair.posed_b(), pair.offset, metres(0.01));
-    const Manifold back = collide(pair.posed_b(), pair.posed_a(), -pair.offset, metres(0.01));
-    ASSERT_EQ(m.count, back.count);
-    if (m.count == 0) continue;
-    ++contacts;
-    ASSERT_EQ(m.normal, -back.normal);
-    ASSERT_EQ(features_of(m).size(), static_cast<std::size_t>(m.count));
-    ASSERT_NEAR(static_cast<double>(deepest(m)),
-                static_cast<double>(pair.separation(real(m.normal))), 3e-5)
-        << pair.text();
-    const Penetration depth = penetration(pair.posed_a(), pair.posed_b(), pair.offset);
-    if (depth.overlapping) {
-      ASSERT_GE(deepest(m), -real(depth.depth) * 1.12L - 0.0006L) << pair.text();
-    }
-  }
-  EXPECT_GT(contacts, 3000);
+  expect_contacts_at_least_separation(random_rounded_pair, 12000);
+}
+
+TEST(RoundedBoxes, AreMetBySweptShapesWhereTheyTouch) {
+  expect_casts_end_where_shapes_touch(random_rounded_pair);
 }
 
 // Points ------------------------------------------------------------------------------------------
@@ -373,7 +194,7 @@ const Shape k_floor_of_die = Shape::box(metres(5), metres(1), metres(5));
 /// The die on a floor of either kind, 1 mm deep, turned about z and x.
 Manifold die_on(const Shape& ground, const Shape& die, const Mat3& rotation) {
   const Mat3 upright;
-  const Real low = RealRounded(die).reach(in_round_frame(rotation, {0, -1, 0}));
+  const Real low = RealRounded(die).reach(in_frame(rotation, {0, -1, 0}));
   const double top = ground.kind == ShapeKind::box ? 1 : 0;
   return collide({ground, upright}, {die, rotation},
                  metres(0, top + static_cast<double>(low) - 0.001, 0), metres(0.02));
@@ -386,7 +207,7 @@ TEST(RoundedBoxes, RestOnTheFlatPartOfAFace) {
     ASSERT_EQ(m.count, 4);
     EXPECT_EQ(m.normal, Mat3{}.y);
     for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_NEAR(round_number(m.points[i].separation), -0.001, 2e-6);
+      EXPECT_NEAR(as_double(m.points[i].separation), -0.001, 2e-6);
       const RealVec at = real(m.points[i].anchor_b);
       EXPECT_NEAR(std::fabs(static_cast<double>(at.x)), 0.3, 2e-6);
       EXPECT_NEAR(static_cast<double>(at.y), -0.5 + 0.0005, 2e-6);
@@ -404,12 +225,12 @@ TEST(RoundedBoxes, LieOnTwoPointsOfAnEdgeAndOnOneOfACorner) {
     ASSERT_EQ(edge.count, 2);
     EXPECT_EQ(edge.normal, Mat3{}.y);
     for (std::size_t i = 0; i < 2; ++i)
-      EXPECT_NEAR(round_number(edge.points[i].separation), -0.001, 2e-6);
+      EXPECT_NEAR(as_double(edge.points[i].separation), -0.001, 2e-6);
     const Real span = norm(real(edge.points[0].anchor_b) - real(edge.points[1].anchor_b));
     EXPECT_NEAR(static_cast<double>(span), 1, 4e-6);
     const Manifold corner = die_on(ground, die, on_corner);
     ASSERT_EQ(corner.count, 1);
-    EXPECT_NEAR(round_number(corner.points[0].separation), -0.001, 3e-6);
+    EXPECT_NEAR(as_double(corner.points[0].separation), -0.001, 3e-6);
   }
 }
 
@@ -433,23 +254,6 @@ TEST(RoundedBoxes, KeepTheirFeaturesWhileTheyRock) {
       EXPECT_EQ(features_of(die_on(ground, die, rotation)), features) << tilt;
     }
   }
-}
-
-TEST(RoundedBoxes, AreMetBySweptShapesWhereTheyTouch) {
-  Dice dice;
-  int hits = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const RoundedPair pair = random_rounded_pair(dice, 1.5, 3);
-    const Vec3<Length> way = metres(real(pair.offset) * -1 + dice.direction() * 0.3L);
-    const ShapeCastHit hit =
-        cast_shape(pair.posed_a(), pair.posed_b(), pair.offset, way, Unit::max());
-    if (!hit.hit || hit.overlapping) continue;
-    ++hits;
-    RoundedPair there = pair;
-    there.offset = metres(real(pair.offset) + real(way) * real(hit.fraction));
-    ASSERT_NEAR(static_cast<double>(there.separation(real(hit.normal))), 0, 6e-6) << pair.text();
-  }
-  EXPECT_GT(hits, 500);
 }
 
 }  // namespace
