@@ -50,6 +50,28 @@ inline Real deepest(const Manifold& m) {
   return least;
 }
 
+/// Contacts of shapes that are apart by `truth`, with slack: none beyond the margin, else as far.
+inline void expect_contacts_of_gap(const Manifold& m, Real truth, Real margin, Real slack) {
+  if (truth > margin + slack) {
+    EXPECT_EQ(m.count, 0);
+  }
+  if (truth > margin - slack) return;
+  ASSERT_GT(m.count, 0) << static_cast<double>(truth);
+  if (truth > 127) return;
+  EXPECT_NEAR(static_cast<double>(deepest(m)), static_cast<double>(truth),
+              static_cast<double>(slack));
+}
+
+/// Contacts of shapes that overlap, by `truth` below 0 at least: hardly deeper. Edges and faces are
+/// preferred by k_edge_margin and k_face_margin, a tenth and 1/32.
+inline void expect_contacts_of_overlap(const Manifold& m, Real truth, Real slack) {
+  ASSERT_GT(m.count, 0);
+  const Real found = std::max<Real>(deepest(m), -128);
+  EXPECT_LE(found, 0);
+  const Real more = slack + 0.00074L + std::fabs(truth) * 0.15L;
+  EXPECT_GE(static_cast<double>(found), static_cast<double>(truth - more));
+}
+
 inline std::set<std::uint32_t> features_of(const Manifold& m) {
   std::set<std::uint32_t> features;
   for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)

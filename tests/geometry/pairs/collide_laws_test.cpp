@@ -43,15 +43,7 @@ TEST(Collide, FindsTheDistanceOfShapesApart) {
     // Faces are preferred within 2^-16 m; a capsule beside a rim within 1/2048 of the core's gap.
     const Real slack = tolerance(scene) + 16 * k_micrometre +
                        (truth + scene.placed_a().radius() + scene.placed_b().radius()) / 2000;
-    const Manifold m = scene.collide();
-    if (truth > margin + slack) {
-      EXPECT_EQ(m.count, 0);
-    }
-    if (truth > margin - slack) return;
-    ASSERT_GT(m.count, 0) << static_cast<double>(truth);
-    if (truth > 127) return;
-    EXPECT_NEAR(static_cast<double>(deepest(m)), static_cast<double>(truth),
-                static_cast<double>(slack));
+    expect_contacts_of_gap(scene.collide(), truth, margin, slack);
   });
 }
 
@@ -59,13 +51,7 @@ TEST(Collide, FindsOverlapsHardlyDeeperThanTheLeastOverlap) {
   for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Real truth = signed_distance(scene.placed_a(), scene.placed_b());
     if (truth > -tolerance(scene)) return;
-    const Manifold m = scene.collide();
-    ASSERT_GT(m.count, 0);
-    const Real found = std::max<Real>(deepest(m), -128);
-    EXPECT_LE(found, 0);
-    // k_edge_margin and k_face_margin, a tenth and 1/32.
-    const Real slack = tolerance(scene) + 0.00074L + std::fabs(truth) * 0.15L;
-    EXPECT_GE(static_cast<double>(found), static_cast<double>(truth - slack));
+    expect_contacts_of_overlap(scene.collide(), truth, tolerance(scene));
   });
 }
 

@@ -21,16 +21,7 @@ TEST(CollidePolytope, FindsTheDistanceOfShapesApart) {
   for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Real truth = signed_distance(scene.real_a(), scene.real_b());
     if (truth <= 0) return;
-    const Real margin = real(scene.margin);
-    const Real slack = choice_slack(scene, truth);
-    const Manifold m = scene.collide();
-    if (truth > margin + slack) {
-      EXPECT_EQ(m.count, 0);
-    }
-    if (truth > margin - slack) return;
-    ASSERT_GT(m.count, 0) << static_cast<double>(truth);
-    EXPECT_NEAR(static_cast<double>(deepest(m)), static_cast<double>(truth),
-                static_cast<double>(slack));
+    expect_contacts_of_gap(scene.collide(), truth, real(scene.margin), choice_slack(scene, truth));
   });
 }
 
@@ -38,13 +29,7 @@ TEST(CollidePolytope, FindsOverlapsHardlyDeeperThanTheLeastOverlap) {
   for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Real truth = signed_distance(scene.real_a(), scene.real_b());
     if (truth > -tolerance(scene)) return;
-    const Manifold m = scene.collide();
-    ASSERT_GT(m.count, 0);
-    const Real found = std::max<Real>(deepest(m), -128);
-    EXPECT_LE(found, 0);
-    // k_edge_margin and k_face_margin, a tenth and 1/32.
-    const Real slack = tolerance(scene) + 0.00074L + std::fabs(truth) * 0.15L;
-    EXPECT_GE(static_cast<double>(found), static_cast<double>(truth - slack));
+    expect_contacts_of_overlap(scene.collide(), truth, tolerance(scene));
   });
 }
 

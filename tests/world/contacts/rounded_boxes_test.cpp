@@ -11,7 +11,8 @@
 
 #include "tests/support/random.h"
 #include "tests/support/workload.h"
-#include "tests/world/world_fixture.h"
+#include "tests/world/flat_terrain.h"
+#include "tests/world/thin_wall.h"
 
 namespace lockstone {
 namespace {
@@ -59,52 +60,9 @@ TEST(RoundedBoxBodies, RollOnTheirEdgesAsCapsulesDo) {
   EXPECT_NEAR(way[1] / way[0], 1, 0.03);
 }
 
-AssetPtr rounded_test_mesh() {
-  std::vector<Vec3<Length>> vertices;
-  std::vector<TriangleIndices> triangles;
-  constexpr int k_cells = 12;
-  for (int x = 0; x <= k_cells; ++x)
-    for (int z = 0; z <= k_cells; ++z)
-      vertices.push_back(
-          {Length::from_ratio(x * 5 - 30, 10), {}, Length::from_ratio(z * 5 - 30, 10)});
-  const auto at = [](int x, int z) { return static_cast<std::uint32_t>(x * (k_cells + 1) + z); };
-  for (int x = 0; x < k_cells; ++x) {
-    for (int z = 0; z < k_cells; ++z) {
-      triangles.push_back({at(x, z), at(x, z + 1), at(x + 1, z)});
-      triangles.push_back({at(x + 1, z), at(x, z + 1), at(x + 1, z + 1)});
-    }
-  }
-  MeshDef def;
-  def.vertices = vertices;
-  def.triangles = triangles;
-  return Mesh::build(def).mesh;
-}
-
-AssetPtr rounded_test_field() {
-  const std::vector<Length> heights(13 * 13);
-  HeightFieldDef def;
-  def.columns = def.rows = 13;
-  def.heights = heights;
-  return HeightField::build(def).height_field;
-}
-
-/// A world with one static asset, whose middle is over the origin's axis.
-World rounded_test_world(bool mesh) {
-  const AssetPtr asset = mesh ? rounded_test_mesh() : rounded_test_field();
-  World world = std::move(World::create({.body_capacity = 64, .sleep_ms = 0},
-                                        std::make_shared<AssetSet>(std::vector{asset})))
-                    .value();
-  BodyDef ground;
-  ground.motion = MotionType::static_body;
-  ground.shape = asset->shape();
-  if (!mesh) ground.position = {-6_m, {}, -6_m};
-  test::add(world, ground);
-  return world;
-}
-
 TEST(RoundedBoxBodies, SlideOverTheSeamsOfTriangles) {
   for (const bool mesh : {true, false}) {
-    World world = rounded_test_world(mesh);
+    World world = test::world_on_triangles(mesh);
     BodyDef def = test::dynamic_body(k_die, -2_m, 0.5_m, 0.1_m);
     def.material.friction = {};
     def.velocity.x = 1.5_mps;
@@ -120,7 +78,7 @@ TEST(RoundedBoxBodies, SlideOverTheSeamsOfTriangles) {
 
 TEST(RoundedBoxBodies, ComeToRestOnTriangles) {
   for (const bool mesh : {true, false}) {
-    World world = rounded_test_world(mesh);
+    World world = test::world_on_triangles(mesh);
     test::Random random(test::run_seed());
     std::vector<BodyHandle> bodies;
     for (int i = 0; i < 12; ++i) {
@@ -147,33 +105,11 @@ TEST(RoundedBoxBodies, ComeToRestOnTriangles) {
 }
 
 TEST(RoundedBoxBodies, NonePassesAWallOfOneCentimetre) {
-  test::Random random(test::run_seed());
-  for (int run = 0; run < test::share_of(600); ++run) {
-    World world = test::make_world({.body_capacity = 16, .gravity = {}});
-    BodyDef wall;
-    wall.motion = MotionType::static_body;
-    wall.shape = Shape::box(0.005_m, 20_m, 20_m);
-    test::add(world, wall);
-    const auto size = [&] {
-      return Length::from_raw(static_cast<std::int32_t>(random.between(1 << 14, 1 << 17)));
-    };
-    const Length x = size(), y = size(), z = size(), radius = size();
-    BodyDef def = test::dynamic_body(Shape::rounded_box(x, y, z, radius), {}, {}, {});
-    def.position.x.raw =
-        -random.between(std::int64_t{1} << 30, std::int64_t{20} << 32) - (std::int64_t{1} << 31);
-    def.velocity.x.raw = random.between(std::int64_t{20} << 32, std::int64_t{400} << 32);
-    def.velocity.y.raw = random.between(-(std::int64_t{100} << 32), std::int64_t{100} << 32);
-    for (int axis = 0; axis < 3; ++axis)
-      def.angular_velocity[axis].raw =
-          random.between(-(std::int64_t{100} << 32), std::int64_t{100} << 32);
-    const BodyHandle bullet = test::add(world, def);
-    for (int tick = 0; tick < 30; ++tick) {
-      test::step(world, 1);
-      const BodyView view = world.body(bullet);
-      if (metres(abs(view.position.y)) > 19 || metres(abs(view.position.z)) > 19) break;
-      ASSERT_LT(metres(view.position.x), 0.0) << "run " << run << " tick " << tick;
-    }
-  }
+  test::expect_none_passes_a_thin_wall([](test::Random& random) {
+    const Length x = test::bullet_size(random), y = test::bullet_size(random);
+    const Length z = test::bullet_size(random), radius = test::bullet_size(random);
+    return Shape::rounded_box(x, y, z, radius);
+  });
 }
 
 // A table of a rounded board on two rounded walls stands on their eight corners.
@@ -284,7 +220,7 @@ TEST(RoundedHullBodies, ComeToRestOnTrianglesAndOnHulls) {
   std::vector<Vec3<Length>> points{
       {}, {0.4_m, {}, {}}, {{}, 0.3_m, {}}, {{}, {}, 0.3_m}, {0.2_m, 0.2_m, 0.2_m}};
   const AssetPtr stone = Hull::build(points, HullOptions::rounded(0.05_m)).hull;
-  const AssetPtr mesh = rounded_test_mesh();
+  const AssetPtr mesh = test::flat_mesh();
   World world = rounded_hull_world({hull, stone, mesh});
   BodyDef ground;
   ground.motion = MotionType::static_body;

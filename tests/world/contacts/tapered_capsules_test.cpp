@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <lockstone/compound.h>
-#include <lockstone/height_field.h>
-#include <lockstone/mesh.h>
 
 #include "core/geometry/shapes/tapered_ends.h"
 #include "tests/support/random.h"
 #include "tests/support/workload.h"
-#include "tests/world/world_fixture.h"
+#include "tests/world/flat_terrain.h"
+#include "tests/world/thin_wall.h"
 
 namespace lockstone {
 namespace {
@@ -101,51 +100,9 @@ TEST(TaperedCapsuleBodies, RollAroundTheirApex) {
   EXPECT_NEAR(travelled, 10 * metres(def.position.y), 0.05);
 }
 
-AssetPtr flat_mesh() {
-  std::vector<Vec3<Length>> vertices;
-  std::vector<TriangleIndices> triangles;
-  constexpr int k_cells = 12;
-  for (int x = 0; x <= k_cells; ++x)
-    for (int z = 0; z <= k_cells; ++z)
-      vertices.push_back(
-          {Length::from_ratio(x * 5 - 30, 10), {}, Length::from_ratio(z * 5 - 30, 10)});
-  const auto at = [](int x, int z) { return static_cast<std::uint32_t>(x * (k_cells + 1) + z); };
-  for (int x = 0; x < k_cells; ++x) {
-    for (int z = 0; z < k_cells; ++z) {
-      triangles.push_back({at(x, z), at(x, z + 1), at(x + 1, z)});
-      triangles.push_back({at(x + 1, z), at(x, z + 1), at(x + 1, z + 1)});
-    }
-  }
-  MeshDef def;
-  def.vertices = vertices;
-  def.triangles = triangles;
-  return Mesh::build(def).mesh;
-}
-
-AssetPtr level_field() {
-  const std::vector<Length> heights(13 * 13);
-  HeightFieldDef def;
-  def.columns = def.rows = 13;
-  def.heights = heights;
-  return HeightField::build(def).height_field;
-}
-
-/// A world with one static asset, whose middle is over the origin's axis.
-World world_of_asset(const AssetPtr& asset, Position shift) {
-  const WorldDef def{.body_capacity = 64, .sleep_ms = 0};
-  World world =
-      std::move(World::create(def, std::make_shared<AssetSet>(std::vector{asset}))).value();
-  BodyDef ground;
-  ground.motion = MotionType::static_body;
-  ground.shape = asset->shape();
-  ground.position = {-shift, {}, -shift};
-  test::add(world, ground);
-  return world;
-}
-
 TEST(TaperedCapsuleBodies, LieAndRollOnTrianglesAsOnABox) {
   for (const bool mesh : {true, false}) {
-    World world = mesh ? world_of_asset(flat_mesh(), {}) : world_of_asset(level_field(), 6_m);
+    World world = test::world_on_triangles(mesh);
     const BodyDef def = rolling_club();
     const BodyHandle body = test::add(world, def);
     const double apex = fine_metres(geometry::tapered_ends(k_club.size).low) + 0.4 / 0.2;
@@ -161,7 +118,7 @@ TEST(TaperedCapsuleBodies, LieAndRollOnTrianglesAsOnABox) {
 
 TEST(TaperedCapsuleBodies, ComeToRestOnTriangles) {
   for (const bool mesh : {true, false}) {
-    World world = mesh ? world_of_asset(flat_mesh(), {}) : world_of_asset(level_field(), 6_m);
+    World world = test::world_on_triangles(mesh);
     test::Random random(test::run_seed());
     std::vector<BodyHandle> bodies;
     for (int i = 0; i < 12; ++i) {
@@ -186,33 +143,10 @@ TEST(TaperedCapsuleBodies, ComeToRestOnTriangles) {
 }
 
 TEST(TaperedCapsuleBodies, NonePassesAWallOfOneCentimetre) {
-  test::Random random(test::run_seed());
-  for (int run = 0; run < test::share_of(600); ++run) {
-    World world = test::make_world({.body_capacity = 16, .gravity = {}});
-    BodyDef wall;
-    wall.motion = MotionType::static_body;
-    wall.shape = Shape::box(0.005_m, 20_m, 20_m);
-    test::add(world, wall);
-    const auto size = [&] {
-      return Length::from_raw(static_cast<std::int32_t>(random.between(1 << 14, 1 << 17)));
-    };
-    const Length height = size(), bottom = size();
-    BodyDef def = test::dynamic_body(Shape::tapered_capsule(height, bottom, size()), {}, {}, {});
-    def.position.x.raw =
-        -random.between(std::int64_t{1} << 30, std::int64_t{20} << 32) - (std::int64_t{1} << 31);
-    def.velocity.x.raw = random.between(std::int64_t{20} << 32, std::int64_t{400} << 32);
-    def.velocity.y.raw = random.between(-(std::int64_t{100} << 32), std::int64_t{100} << 32);
-    for (int axis = 0; axis < 3; ++axis)
-      def.angular_velocity[axis].raw =
-          random.between(-(std::int64_t{100} << 32), std::int64_t{100} << 32);
-    const BodyHandle bullet = test::add(world, def);
-    for (int tick = 0; tick < 30; ++tick) {
-      test::step(world, 1);
-      const BodyView view = world.body(bullet);
-      if (metres(abs(view.position.y)) > 19 || metres(abs(view.position.z)) > 19) break;
-      ASSERT_LT(metres(view.position.x), 0.0) << "run " << run << " tick " << tick;
-    }
-  }
+  test::expect_none_passes_a_thin_wall([](test::Random& random) {
+    const Length height = test::bullet_size(random), bottom = test::bullet_size(random);
+    return Shape::tapered_capsule(height, bottom, test::bullet_size(random));
+  });
 }
 
 // Two clubs side by side are one body, which stands on its three lowest points or lies.
