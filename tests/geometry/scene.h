@@ -50,6 +50,12 @@ inline Real deepest(const Manifold& m) {
   return least;
 }
 
+/// How far the point of a ball around an end of a capsule's core may be within its side, where the
+/// core leans towards the normal.
+inline Real end_within_side(Real radius, Real lean) {
+  return radius * (1 - std::sqrt(std::max<Real>(1 - lean * lean, 0)));
+}
+
 /// Contacts of shapes that are apart by `truth`, with slack: none beyond the margin, else as far.
 inline void expect_contacts_of_gap(const Manifold& m, Real truth, Real margin, Real slack) {
   if (truth > margin + slack) {

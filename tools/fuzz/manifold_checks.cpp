@@ -104,10 +104,26 @@ double shown_face(const Body& body, const Real3& normal) {
   return most;
 }
 
+// Of the greater ball around the core of a capsule or a tapered one.
+double ball_radius(const Body& body) {
+  return body.is_tapered() ? body.radius + std::max(body.swell[0], body.swell[1]) : body.radius;
+}
+
+// The point of a ball around an end of the core is within the side, where the core leans.
+double end_slack(const Body& body, const Real3& normal) {
+  if (body.core.size() < 2) return 0;
+  const Real3 core = body.core[1] - body.core[0];
+  if (norm(core) == 0) return 0;
+  const double lean = std::abs(dot(core, normal)) + std::abs(body.swell[1] - body.swell[0]);
+  const double sine = std::min(lean / norm(core), 1.0);
+  return ball_radius(body) * (1 - std::sqrt(1 - sine * sine));
+}
+
 // The points of a rounded face that leans are those of balls around its vertices, of which only the
 // deepest is on the surface. So are the ends of an edge that leans by less than 1/32. A face is
 // shown up to 30° from the nearest axis; of shapes that overlap, the normal may be another.
 double lean_slack(const Body& body, const Real3& normal, double deepest) {
+  if (body.kind == Kind::capsule || body.is_tapered()) return end_slack(body, normal);
   if (!body.is_rounded()) return 0;
   double most = body.polytope != nullptr ? shown_face(body, normal) : 0;
   for (int axis = 0; axis < 3 && body.polytope == nullptr; ++axis)
@@ -119,11 +135,8 @@ double lean_slack(const Body& body, const Real3& normal, double deepest) {
 // A vertex may be moved onto a side by 31 µm, and at a corner onto two.
 double surface_slack(const Pair& pair, const Manifold& m, double separation, double deepest) {
   const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre * std::numbers::sqrt2;
-  const auto ball = [](const Body& body) {
-    return body.is_tapered() ? body.radius + std::max(body.swell[0], body.swell[1]) : body.radius;
-  };
   const bool leans = pair.has(Kind::capsule) || pair.has(Kind::tapered_capsule);
-  const double share = leans ? (ball(pair.a) + ball(pair.b)) / 1000 : 0;
+  const double share = leans ? (ball_radius(pair.a) + ball_radius(pair.b)) / 1000 : 0;
   const Real3 n = direction_of(real(m.normal));
   const double rounded = lean_slack(pair.a, n, deepest) + lean_slack(pair.b, -n, deepest);
   return tolerance(pair) + snap + share + rounded + aside_slack(pair, m, separation) +
@@ -155,10 +168,15 @@ void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p,
   const bool of_all = pair.has_rims() || pair.a.is_rounded() || pair.b.is_rounded();
   if (separation < k_deepest || has_core_inside(pair, of_all ? deepest : separation)) return;
   if (separation <= 0 && may_push_aside(pair, out)) return;
-  verdict.measure(Check::anchors, outside(pair.a, on_a),
-                  surface_slack(pair, m, separation, deepest));
-  verdict.measure(Check::anchors, outside(pair.b, on_b),
-                  surface_slack(pair, m, separation, deepest));
+  // The point of a ball around an end of a rounded edge may be within the side.
+  const auto check_surface = [&](const Body& body, const Real3& point) {
+    const double beyond = outside(body, point);
+    const double within = body.is_rounded() ? std::min(beyond + body.radius, 0.0) : beyond;
+    verdict.measure(Check::anchors, beyond > 0 ? beyond : within,
+                    surface_slack(pair, m, separation, deepest));
+  };
+  check_surface(pair.a, on_a);
+  check_surface(pair.b, on_b);
 }
 
 }  // namespace

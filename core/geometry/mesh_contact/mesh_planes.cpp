@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <optional>
 #include <tuple>
+#include <utility>
 
+#include "core/geometry/contact/feature/contact_feature.h"
 #include "core/geometry/contact/manifold/manifold_reduction.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/contact_point.h"
@@ -86,19 +88,60 @@ int dominant_axis(const Vec3<Unit>& normal) {
   return dominant;
 }
 
-/// The vertices that support the shape: of more than four the vertices on the plane or within k_low
-/// of the deepest, where they are three or more; else all. A fast shape has a wide margin, and
-/// vertices high above the plane, which may be farther apart, must not take the place of those that
-/// it lies on.
-std::span<FaceVertex> low_ones(std::span<FaceVertex> all) {
+/// Places that count differ by less than 2^30 with this shift.
+constexpr int k_wide_shift = k_fine_per_length + 3;
+
+/// Twice the area of a wide triangle among the vertices: of the first, the one farthest from it,
+/// and the one farthest from the line through both.
+std::int64_t wide_area(std::span<const FaceVertex> vertices) {
+  const FaceVertex& first = vertices.front();
+  const auto way = [&](const FaceVertex& v) {
+    return std::pair(raw::round_shift(v.x - first.x, k_wide_shift),
+                     raw::round_shift(v.y - first.y, k_wide_shift));
+  };
+  std::pair<std::int64_t, std::int64_t> far{};
+  std::int64_t square = 0, area = 0;
+  for (const FaceVertex& v : vertices) {
+    const auto [x, y] = way(v);
+    if (x * x + y * y <= square) continue;
+    square = x * x + y * y;
+    far = {x, y};
+  }
+  for (const FaceVertex& v : vertices) {
+    const auto [x, y] = way(v);
+    const std::int64_t spanned = far.first * y - far.second * x;
+    area = std::max(area, spanned < 0 ? -spanned : spanned);
+  }
+  return area;
+}
+
+/// Brings the chosen vertices to the front and returns them.
+template <class IsChosen>
+std::span<FaceVertex> chosen_ones(std::span<FaceVertex> all, IsChosen&& is_chosen) {
+  const auto rest = std::partition(all.begin(), all.end(), is_chosen);
+  return all.first(static_cast<std::size_t>(rest - all.begin()));
+}
+
+/// Whether some of the vertices span at least this part of the area of all, in sixteenths.
+bool are_wide(std::span<const FaceVertex> some, std::span<const FaceVertex> all, int sixteenths) {
+  return some.size() >= 3 && wide_area(some) >= wide_area(all) / 16 * sixteenths;
+}
+
+/// The vertices that support the shape, of more than four. First the shape's own, since its edges
+/// reach no lower between them, where they are as wide as all. Of these those on the plane or
+/// within k_low of the deepest, where they are a quarter as wide: a fast shape has a wide margin,
+/// and vertices high above the plane, which may be farther apart, must not take the place of those
+/// that it lies on. A shape that stands on a corner or an edge lies on none, and may fall.
+std::span<FaceVertex> supporting_ones(std::span<FaceVertex> all) {
   constexpr Fine k_low = Fine{1} << (k_fine_bits - 8);  // 3.9 mm
   if (all.size() <= 4) return all;
-  const Fine deepest = std::ranges::min_element(all, {}, &FaceVertex::z)->z;
+  const auto own = chosen_ones(all, [](const FaceVertex& v) { return v.feature < k_foreign; });
+  const auto these = are_wide(own, all, 15) ? own : all;
+  if (these.size() <= 4) return these;
+  const Fine deepest = std::ranges::min_element(these, {}, &FaceVertex::z)->z;
   const Fine limit = std::max(deepest, Fine{0}) + k_low;
-  const auto high =
-      std::partition(all.begin(), all.end(), [&](const FaceVertex& v) { return v.z <= limit; });
-  const auto low = static_cast<std::size_t>(high - all.begin());
-  return low < 3 ? all : all.first(low);
+  const auto low = chosen_ones(these, [&](const FaceVertex& v) { return v.z <= limit; });
+  return are_wide(low, these, 4) ? low : these;
 }
 
 /// Points of one group with one normal, reduced to four whenever they do not fit.
@@ -132,7 +175,7 @@ class PointPool {
                     Fine{p.separation.raw} * (Fine{1} << k_fine_per_displacement), p.feature};
     }
     const std::span all = std::span(polygon).first(count_);
-    const auto kept = static_cast<std::size_t>(reduce_to_four(low_ones(all), k_area_shift));
+    const auto kept = static_cast<std::size_t>(reduce_to_four(supporting_ones(all), k_area_shift));
     std::array<ManifoldPoint, k_max_manifold_points> chosen;
     for (std::size_t i = 0; i < kept; ++i)
       chosen[i] = *std::ranges::find(points_, polygon[i].feature, &ManifoldPoint::feature);
@@ -182,20 +225,11 @@ class PointPool {
   std::size_t count_ = 0;
 };
 
-/// The vertices of a shape's core, in the order of their features.
-class CoreVertices {
+/// The part of the shape that looks at a plane.
+class FacingVertices {
  public:
-  explicit CoreVertices(const MeshContactFrame& frame) : frame_(frame) {
-    const Shape& shape = frame.shape.shape;
-    if (frame.shape.polytope != nullptr) {
-      for (const Vec3<Length>& v : frame.shape.polytope->vertices)
-        add(fine(v));
-    } else {
-      std::array<RawVec, 8> vertices;
-      const int count = traits_of(shape).vertices(shape, vertices);
-      for (int i = 0; i < count; ++i)
-        add(vertices[static_cast<std::size_t>(i)]);
-    }
+  FacingVertices(const MeshContactFrame& frame, const Vec3<Unit>& normal) : frame_(frame) {
+    find_feature(frame.shape, -normal, feature_);
   }
 
   /// Those over the triangle's face within the margin; the manifold's normal is the face's.
@@ -203,27 +237,28 @@ class CoreVertices {
   void add_over(const TriangleContact& contact, Add&& add) const {
     const FacePlane plane(contact.vertices, contact.face_normal);
     const Vec3<Unit>& normal = contact.manifold.normal;
-    const Length radius = core_radius(frame_.shape);
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Fine separation = plane.height(local_[i]) - fine(radius);
-      if (!keeps(separation, frame_.margin) || !plane.has_beside(local_[i])) continue;
-      const RawVec on_b = rotate(frame_.rotation, local_[i]) - along(normal, radius);
+    for (int i = 0; i < feature_.count; ++i) {
+      const FeaturePoint& vertex = feature_.points[static_cast<std::size_t>(i)];
+      const RawVec local = along_columns(frame_.rotation, vertex.at + fine(frame_.offset));
+      const Fine separation = plane.height(local) - fine(feature_.radius);
+      if (!keeps(separation, frame_.margin) || !plane.has_beside(local)) continue;
+      const RawVec on_b = vertex.at + fine(frame_.offset) - along(normal, feature_.radius);
       Manifold one;
       add_point_on(frame_.shape.shape, one, {on_b - along(normal, separation), on_b}, frame_.offset,
-                   separation, frame_.margin, static_cast<std::uint32_t>(i));
+                   separation, frame_.margin, feature_of(vertex));
       add(one.points[0]);
     }
   }
 
  private:
-  void add(const RawVec& vertex) {
-    const RawVec world = rotate(frame_.shape.rotation, vertex) + fine(frame_.offset);
-    local_[count_++] = along_columns(frame_.rotation, world);
+  [[nodiscard]] std::uint32_t feature_of(const FeaturePoint& vertex) const {
+    const PosedShape& posed = frame_.shape;
+    const auto own = vertex_of(posed, along_columns(posed.rotation, vertex.at));
+    return own ? *own : foreign_feature(0, vertex.id);
   }
 
   const MeshContactFrame& frame_;
-  std::array<RawVec, k_max_polytope_vertices> local_;  ///< in the triangles' frame
-  std::size_t count_ = 0;
+  ContactFeature feature_;
 };
 
 /// A contact's place in the order of groups.
@@ -238,18 +273,20 @@ struct Member {
 /// A group in the making: its points, and the deepest of its triangles.
 class Group {
  public:
-  explicit Group(const Member& first)
-      : plane_(first.plane), deepest_(first.contact), pool_(first.contact->manifold.normal) {}
+  Group(const Member& first, const MeshContactFrame& frame)
+      : plane_(first.plane),
+        deepest_(first.contact),
+        pool_(first.contact->manifold.normal),
+        vertices_(frame, first.contact->manifold.normal) {}
 
-  void add(const TriangleContact& contact, const CoreVertices& vertices,
-           const MeshContactFrame& frame) {
+  void add(const TriangleContact& contact, const MeshContactFrame& frame) {
     const auto take = [&](const ManifoldPoint& point) {
       pool_.add(point);
       if (point.separation >= least_) return;
       least_ = point.separation;
       deepest_ = &contact;
     };
-    if (contact.on_face) vertices.add_over(contact, take);
+    if (contact.on_face) vertices_.add_over(contact, take);
     for (int i = 0; i < contact.manifold.count; ++i) {
       ManifoldPoint point = contact.manifold.points[static_cast<std::size_t>(i)];
       point.feature = feature_of(contact, point, frame);
@@ -272,6 +309,7 @@ class Group {
   const TriangleContact* deepest_;
   Displacement least_ = Displacement::max();
   PointPool pool_;
+  FacingVertices vertices_;
 };
 
 /// Takes the group in; beyond the capacity the shallowest leaves, of equals the later one.
@@ -320,12 +358,11 @@ void merge_planes(std::span<const TriangleContact> contacts, const MeshContactFr
   std::ranges::sort(used, {}, &Member::key);
   out.count = 0;
   out.left_out = 0;
-  const CoreVertices vertices(frame);
   for (std::size_t i = 0; i < count;) {
-    Group group(used[i]);
+    Group group(used[i], frame);
     const std::size_t first = i;
     for (; i < count && used[i].group() == used[first].group(); ++i)
-      group.add(*used[i].contact, vertices, frame);
+      group.add(*used[i].contact, frame);
     if (const MeshManifold manifold = group.finished(); manifold.manifold.count > 0)
       insert(out, manifold);
   }

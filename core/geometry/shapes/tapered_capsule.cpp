@@ -104,18 +104,14 @@ bool tapered_holds(const Shape& shape, const Vec3<Length>& point, Length slack) 
   return taper_point_gap(core, fine(point)).gap.distance <= fine(core.radius + slack);
 }
 
-/// Both ends where the side leans by less than 1/32 from a plane across n, else the end that n
-/// points to.
+/// The points of both ends that reach farthest along n; of a ball one.
 void tapered_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
   const TaperedEnds ends = tapered_ends(shape.shape.size);
-  const std::int32_t steep = ends.rise().raw / 32;
-  const Unit lean = rotate_inverse(shape.rotation, n).y - ends.slope();
   const auto add_end = [&](Fine height, Length radius, std::uint32_t id) {
     out.add(rotate(shape.rotation, RawVec{0, height, 0}) + along(n, radius), id);
   };
-  if (lean.raw <= steep) add_end(ends.low, ends.low_radius, 0);
-  if (lean.raw >= -steep && ends.high != ends.low) add_end(ends.high, ends.high_radius, 1);
-  if (out.count == 0) add_end(ends.low, ends.low_radius, 0);  // a ball
+  add_end(ends.low, ends.low_radius, 0);
+  if (ends.high != ends.low) add_end(ends.high, ends.high_radius, 1);
 }
 
 Shape tapered_scaled(const Shape& shape, Unit share) {

@@ -1,11 +1,35 @@
 #include "core/world/data/world_data.h"
 
+#include "core/dynamics/body/inertia.h"
+#include "core/math/int128.h"
+#include "core/world/derived/quantities.h"
+
 namespace lockstone {
 namespace {
 
 // How far a body goes in one tick, along one axis.
 Position travel(Velocity v, const TimeStep& step) {
   return Position::from_raw(step.tick.times(v.raw));
+}
+
+// How far turning takes any point of the body in one tick, along each axis, at most; `reach`: the
+// farthest that a point is from the centre of mass, along each axis.
+Vec3<Position> turn_travel(const WorldData& world, std::uint32_t body,
+                           const Vec3<Position>& reach) {
+  const BodyRecord& record = world.bodies[body];
+  const Vec3<Velocity> surface = world.surface_velocity_of(body);
+  const auto by = [&](Velocity w, Position arm) {
+    return saturated_product(travel(abs(w), world.time_step).raw, arm.raw,
+                             Position::frac_bits + record.scale_exponent);
+  };
+  Vec3<Position> result;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const std::int64_t way =
+        raw::saturating_add(by(surface[j], reach[k]), by(surface[k], reach[j]));
+    result[i] = min(Position::from_raw(way), reach[j] + reach[k]);
+  }
+  return result;
 }
 
 }  // namespace
@@ -63,14 +87,27 @@ std::uint32_t WorldData::body_count() const {
 Bounds WorldData::bounds_of(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
   const WorldBox box = world_box(placed(body));
+  Vec3<Position> turned;
+  if (record.spin != Vec3<Velocity>{}) {
+    Vec3<Position> reach;
+    for (int i = 0; i < 3; ++i)
+      reach[i] = max(box.upper[i] - record.position[i], record.position[i] - box.lower[i]);
+    turned = turn_travel(*this, body, reach);
+  }
   Bounds bounds;
   for (int i = 0; i < 3; ++i) {
-    const Position margin = rounded<Position>(k_contact_margin / 2);
+    const Position margin = rounded<Position>(k_contact_margin / 2) + turned[i];
     const Position swept = travel(record.velocity[i], time_step);
     bounds.lower[i] = round_down(box.lower[i] - margin + min(swept, Position{}));
     bounds.upper[i] = round_up(box.upper[i] + margin + max(swept, Position{}));
   }
   return bounds;
+}
+
+Vec3<Velocity> WorldData::surface_velocity_of(std::uint32_t body) const {
+  const BodyRecord& record = bodies[body];
+  if (record.spin == Vec3<Velocity>{}) return {};
+  return surface_velocity(inverse_inertia(record, cache.rotation(body)), record.spin);
 }
 
 void WorldData::refresh(std::uint32_t body) {

@@ -98,6 +98,8 @@ struct WorldData : FluidData, RuleTables, VehicleData, TerrainData {
   }
   /// The bounds of the body, swept over the coming tick, with a margin.
   [[nodiscard]] Bounds bounds_of(std::uint32_t body) const;
+  /// How it turns: ω·2^scale_exponent.
+  [[nodiscard]] Vec3<Velocity> surface_velocity_of(std::uint32_t body) const;
   /// Brings the data derived from one body up to date: after every write to it.
   void refresh(std::uint32_t body);
   /// The same for bounds and the broad phase alone.

@@ -374,6 +374,13 @@ inline Real surface_distance(const RealSolid& solid, const RealVec& p) {
   return std::fabs(distance_by_features(solid, point) - solid.radius);
 }
 
+/// How far the point of a ball around an end of a capsule's core may be within its side.
+inline Real lean_slack(const RealSolid& solid, const RealVec& normal) {
+  if (solid.vertices.size() != 2) return 0;
+  const RealVec core = solid.vertices[1] - solid.vertices[0];
+  return end_within_side(solid.radius, dot(core, normal) / norm(core));
+}
+
 /// A shape with its rotation, by value.
 struct Body {
   Shape shape;

@@ -53,10 +53,15 @@ void add_face_point(Manifold& manifold, const BoxCapsule& pair, int axis, int si
                   height - fine(pair.radius), pair.margin, feature);
 }
 
-/// The core leans from the face by more than 1/32: its far end is no contact. Below that the normal
-/// of the face misses the capsule's surface by at most 1/2000 of the radius.
-bool is_steep(const BoxCapsule& pair, int axis) {
-  return abs(pair.local.axis[axis]).raw > (1 << 25);
+/// Whether the face may meet the core's point at an end of the part beside the face. An end of the
+/// core has a ball around it; elsewhere the core must lean from the face by 1/32 at most, for then
+/// the normal of the face misses the capsule's surface by at most 1/2000 of the radius.
+bool may_meet(const BoxCapsule& pair, int axis, Fine s) {
+  return magnitude_of(s) == pair.local.half || abs(pair.local.axis[axis]).raw <= (1 << 25);
+}
+
+Fine deeper_end(const BoxCapsule& pair, int axis, int sign, const Interval& beside) {
+  return sign * pair.local.axis[axis].raw > 0 ? beside.low : beside.high;
 }
 
 Manifold face_manifold(const BoxCapsule& pair, int axis, int sign, const Interval& beside) {
@@ -64,13 +69,11 @@ Manifold face_manifold(const BoxCapsule& pair, int axis, int sign, const Interva
   Manifold manifold;
   manifold.normal = unit_axis(signed_axis(pair.box.rotation.column(axis), sign));
   const bool low_is_deeper = sign * pair.local.axis[axis].raw > 0;
-  const bool both = !is_steep(pair, axis) && beside.low < beside.high;
-  if (low_is_deeper || both) {
+  const bool both = beside.low < beside.high;
+  if (low_is_deeper || (both && may_meet(pair, axis, beside.low)))
     add_face_point(manifold, pair, axis, sign, beside.low, face_feature(axis, sign, 0));
-  }
-  if (!low_is_deeper || both) {
+  if (!low_is_deeper || (both && may_meet(pair, axis, beside.high)))
     add_face_point(manifold, pair, axis, sign, beside.high, face_feature(axis, sign, 1));
-  }
   if (manifold.count == 0) return {};
   LKS_ASSERT(is_manifold(manifold));
   return manifold;
@@ -116,11 +119,13 @@ Manifold collide_apart(const BoxCapsule& pair, Fine s, const RawVec& gap) {
     return separated_by(direction_of(world_gap.x, world_gap.y, world_gap.z));
   }
   const int axis = facing_axis(gap);
-  if (axis < 0 || is_steep(pair, axis)) return nearest_point(pair, s, gap);
+  if (axis < 0) return nearest_point(pair, s, gap);
   const Interval beside = beside_face(pair.local, axis);
   const int sign = sign_of(gap[axis]);
   if (beside.high - beside.low <= fine(pair.radius) / 16) return nearest_point(pair, s, gap);
-  if (!attains_face(pair, axis, sign, beside, distance)) return nearest_point(pair, s, gap);
+  if (!may_meet(pair, axis, deeper_end(pair, axis, sign, beside)) ||
+      !attains_face(pair, axis, sign, beside, distance))
+    return nearest_point(pair, s, gap);
   const Manifold manifold = face_manifold(pair, axis, sign, beside);
   return manifold.count > 0 ? manifold : nearest_point(pair, s, gap);
 }

@@ -11,7 +11,6 @@
 namespace lockstone::geometry {
 namespace {
 
-constexpr std::uint32_t k_crossing = std::uint32_t{1} << 29;
 constexpr std::uint32_t k_side = std::uint32_t{1} << 8;  ///< an edge that is a side of the face
 
 /// A vertex with the edge that leaves it: of the clipped feature, or a side of the face.

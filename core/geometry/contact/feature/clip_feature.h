@@ -8,6 +8,9 @@
 
 namespace lockstone::geometry {
 
+/// The bit of ids of points where two lines cross.
+inline constexpr std::uint32_t k_crossing = std::uint32_t{1} << 29;
+
 /// The frame on a face: its origin is the surface above the face's first point.
 struct ClipFrame {
   RawVec origin;

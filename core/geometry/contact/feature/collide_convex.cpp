@@ -5,6 +5,7 @@
 #include "core/geometry/contact/feature/collide_convex.h"
 
 #include <algorithm>
+#include <span>
 
 #include <lockstone/assert.h>
 
@@ -106,6 +107,21 @@ bool find_side_axis(const ConvexMeeting& pair, ConvexAxis& found) {
 
 // Faces -------------------------------------------------------------------------------------------
 
+/// Whether the segment leans by more than 1/32 towards a direction.
+bool is_steep(const ContactFeature& segment, const Vec3<Unit>& n) {
+  const RawVec way = segment.points[1].at - segment.points[0].at;
+  return magnitude_of(dot(way, n)) > static_cast<Fine>(norm(way.x, way.y, way.z) / 32);
+}
+
+/// The ends of a clipped segment that are its own. Where it leans, the surface of what is round
+/// about it is elsewhere between them.
+std::span<FaceVertex> own_ends(std::span<FaceVertex> clipped) {
+  const auto cut = std::partition(clipped.begin(), clipped.end(), [](const FaceVertex& v) {
+    return (v.feature & k_crossing) == 0;
+  });
+  return clipped.first(static_cast<std::size_t>(cut - clipped.begin()));
+}
+
 /// The manifold from the face of one shape to the feature of the other, the normal from A to B.
 Manifold on_face(const ConvexMeeting& pair, const ContactFeature& face, const ContactFeature& other,
                  bool face_is_a) {
@@ -114,11 +130,12 @@ Manifold on_face(const ConvexMeeting& pair, const ContactFeature& face, const Co
   ClippedFeature clipped;
   const RawVec between = fine(pair.offset);
   clip(face, frame, other, face_is_a ? between : -between, clipped);
-  for (FaceVertex& vertex : clipped.all())
+  const bool is_steep_segment = other.count == 2 && is_steep(other, face.normal);
+  const std::span<FaceVertex> all = is_steep_segment ? own_ends(clipped.all()) : clipped.all();
+  for (FaceVertex& vertex : all)
     vertex.z -= fine(other.radius);
-  const int near = drop_far_vertices(clipped.all(), pair.margin);
-  const int kept =
-      reduce_to_four(clipped.all().first(static_cast<std::size_t>(near)), clipped.shift);
+  const int near = drop_far_vertices(all, pair.margin);
+  const int kept = reduce_to_four(all.first(static_cast<std::size_t>(near)), clipped.shift);
   Manifold manifold;
   manifold.normal = face_is_a ? face.normal : -face.normal;
   for (int i = 0; i < kept; ++i) {
@@ -194,6 +211,7 @@ Fine widest_aside(const ConvexMeeting& pair, const ShownFeatures& shown) {
 bool find_edge_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
                         const ShownFeatures& shown, Manifold& found) {
   if (shown.a.count != 2 || shown.b.count != 2) return false;
+  if (is_steep(shown.a, axis.normal) || is_steep(shown.b, axis.normal)) return false;
   const RawVec from_a = shown.a.points[0].at, edge_a = shown.a.points[1].at - from_a;
   const RawVec from_b = shown.b.points[0].at + fine(pair.offset);
   const RawVec edge_b = shown.b.points[1].at - shown.b.points[0].at;

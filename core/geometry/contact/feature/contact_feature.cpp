@@ -10,9 +10,6 @@
 namespace lockstone::geometry {
 namespace {
 
-/// A segment that leans more than this towards n shows its end alone: 1/32.
-constexpr std::int64_t k_steep = std::int64_t{1} << 55;
-
 /// Whether a rounded polytope shows its edges and vertices where the best face leans from n by more
 /// than 30°.
 bool shows_round_part(const Polytope& p, const PolytopeFace& face, const Vec3<Unit>& local) {
@@ -29,13 +26,13 @@ bool is_between_faces(const Polytope& p, const HalfEdge& edge, const Vec3<Unit>&
   return lockstone::dot(n, here).raw >= least && lockstone::dot(n, there).raw >= least;
 }
 
-/// The edge at the vertex that leans least, with both ends unless it is steep.
+/// The edge at the vertex that leans least.
 void round_part(const PosedShape& shape, int vertex, const Vec3<Unit>& local, ContactFeature& out) {
   LKS_ASSERT(shape.polytope != nullptr && is_unit(local));
   const Polytope& p = *shape.polytope;
   LKS_ASSERT(vertex >= 0 && vertex < static_cast<int>(p.vertices.size()));
   int best = -1;
-  std::int64_t least = k_steep;
+  std::int64_t least = std::int64_t{1} << 60;
   for (std::size_t i = 0; i < p.edges.size(); ++i) {
     if (p.edges[i].origin != vertex || !is_between_faces(p, p.edges[i], local)) continue;
     const Vec3<Unit> way = direction_of(edge_vector(p, static_cast<int>(i)));
@@ -95,16 +92,13 @@ void box_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& o
 }
 
 /// Of a sphere or a capsule.
-void ball_swept_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
+void ball_swept_feature(const PosedShape& shape, ContactFeature& out) {
   std::array<RawVec, 8> vertices;
   const int count = traits_of(shape.shape).vertices(shape.shape, vertices);
   out.radius = shape.shape.size.x;
-  const std::int64_t lean = lockstone::dot(shape.rotation.y, n).raw;
-  for (int i = 0; i < count; ++i) {
-    const RawVec& vertex = vertices[static_cast<std::size_t>(i)];
-    const bool hidden = count == 2 && magnitude_of(lean) > k_steep && (vertex.y > 0) != (lean > 0);
-    if (!hidden) out.add(rotate(shape.rotation, vertex), static_cast<std::uint32_t>(i));
-  }
+  for (int i = 0; i < count; ++i)
+    out.add(rotate(shape.rotation, vertices[static_cast<std::size_t>(i)]),
+            static_cast<std::uint32_t>(i));
   LKS_ASSERT(out.count > 0);
 }
 
@@ -117,7 +111,7 @@ void find_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& 
   if (shape.polytope != nullptr) return polytope_feature(shape, n, out);
   const ShapeTraits& traits = traits_of(shape.shape);
   if (traits.find_feature != nullptr) return traits.find_feature(shape, n, out);
-  return traits.core_radius != nullptr ? ball_swept_feature(shape, n, out)
+  return traits.core_radius != nullptr ? ball_swept_feature(shape, out)
                                        : box_feature(shape, n, out);
 }
 

@@ -127,10 +127,7 @@ Manifold below_capsule(const PlaneMeeting& plane) {
   const Vec3<Unit>& axis = plane.b.rotation.y;
   Manifold manifold;
   manifold.normal = plane.normal;
-  const std::int64_t lean = lockstone::dot(axis, plane.normal).raw;
-  const bool steep = magnitude_of(lean) > std::int64_t{1} << 55;  // 1/32, as against a box
   for (const int sign : {-1, 1}) {
-    if (steep && sign == sign_of(lean)) continue;
     const RawVec end = along(axis, half * sign);
     const RawVec pole = fine(plane.offset) + end - along(plane.normal, radius);
     add_below(manifold, plane, pole, plane.centre_height + dot(end, plane.normal) - fine(radius),

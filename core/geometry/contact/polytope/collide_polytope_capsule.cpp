@@ -64,9 +64,10 @@ std::int64_t slope_over(const PolytopeCapsule& pair, int face) {
                           Unit::frac_bits);
 }
 
-/// The core leans from the face by more than 1/32, as in box against capsule.
-bool is_steep(const PolytopeCapsule& pair, int face) {
-  return magnitude_of(slope_over(pair, face)) > (1 << 25);
+/// Whether the face may meet the core's point at an end of the part beside the face, as in box
+/// against capsule.
+bool may_meet(const PolytopeCapsule& pair, int face, Fine s) {
+  return magnitude_of(s) == pair.local.half || magnitude_of(slope_over(pair, face)) <= (1 << 25);
 }
 
 Manifold face_manifold(const PolytopeCapsule& pair, int face, const BesideFace& beside) {
@@ -74,10 +75,10 @@ Manifold face_manifold(const PolytopeCapsule& pair, int face, const BesideFace& 
   Manifold manifold;
   manifold.normal = unit_axis(lockstone::rotate(pair.polytope.rotation, pair.face(face).normal));
   const bool low_is_deeper = slope_over(pair, face) > 0;
-  const bool both = !is_steep(pair, face) && beside.low < beside.high;
-  if (low_is_deeper || both)
+  const bool both = beside.low < beside.high;
+  if (low_is_deeper || (both && may_meet(pair, face, beside.low)))
     add_face_point(manifold, pair, face, beside.low, face_feature(face, 0));
-  if (!low_is_deeper || both)
+  if (!low_is_deeper || (both && may_meet(pair, face, beside.high)))
     add_face_point(manifold, pair, face, beside.high, face_feature(face, 1));
   return manifold.count > 0 ? manifold : Manifold{};
 }
@@ -119,11 +120,13 @@ bool attains_face(const PolytopeCapsule& pair, int face, const BesideFace& besid
 Manifold collide_apart(const PolytopeCapsule& pair, const SegmentNearest& nearest) {
   LKS_ASSERT(!is_negligible(nearest.gap));
   const int face = facing_face(pair, nearest.gap);
-  if (face < 0 || is_steep(pair, face)) return manifold_at(pair, nearest);
+  if (face < 0) return manifold_at(pair, nearest);
   const BesideFace beside = beside_face(pair.local, face);
   if (beside.low > beside.high || beside.high - beside.low <= fine(pair.radius) / 16)
     return manifold_at(pair, nearest);
-  if (!attains_face(pair, face, beside, nearest.distance)) return manifold_at(pair, nearest);
+  const Fine deeper = slope_over(pair, face) > 0 ? beside.low : beside.high;
+  if (!may_meet(pair, face, deeper) || !attains_face(pair, face, beside, nearest.distance))
+    return manifold_at(pair, nearest);
   const Manifold manifold = face_manifold(pair, face, beside);
   return manifold.count > 0 ? manifold : manifold_at(pair, nearest);
 }

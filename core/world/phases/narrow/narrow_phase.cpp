@@ -25,24 +25,33 @@ constexpr int k_reach_bits = 10;
 constexpr std::uint32_t k_pair_grain = 8;
 constexpr std::uint32_t k_number_piece = 256;
 
-// How far ahead a pair must look: as far as it can close in one tick, but no farther than the
-// bodies are thick, or a glancing pass would be taken for a hit.
-Length speculative_distance(const BodyRecord& a, const BodyRecord& b, Length thickness,
-                            const TimeStep& step) {
+// The way of a speed in a tick, m/s, Q32; rounded up to 1 mm.
+Length way_in_tick(const TimeStep& step, std::int64_t speed) {
   constexpr std::int64_t k_below_step = (std::int64_t{1} << k_reach_bits) - 1;
-  const std::int64_t closing = step.tick.times(sum_of_magnitudes(a.velocity - b.velocity));
-  const std::int64_t steps =
-      std::max<std::int64_t>(((closing >> 12) + k_below_step) >> k_reach_bits, 1);
-  const Length reach = Length::from_raw(raw::saturate<std::int32_t>(steps << k_reach_bits));
-  return k_contact_margin + min(min(reach, thickness), k_max_speculation);
+  const std::int64_t steps = ((step.tick.times(speed) >> 12) + k_below_step) >> k_reach_bits;
+  return Length::from_raw(raw::saturate<std::int32_t>(steps << k_reach_bits));
+}
+
+// Nothing is behind a half-space.
+Length thickness_of(const WorldData& world, std::uint32_t body) {
+  const bool is_endless = world.bodies[body].shape().kind == ShapeKind::half_space;
+  return is_endless ? k_max_speculation : world.cache.inner_radius(body);
 }
 
 }  // namespace
 
+// How far ahead a pair must look: as far as it can close in one tick. Where bodies pass each other,
+// no farther than they are thick, or a glancing pass would be taken for a hit.
 Length margin_of(const WorldData& world, const Pair& pair) {
-  const Length thickness = max(world.cache.inner_radius(pair.a), world.cache.inner_radius(pair.b));
-  return speculative_distance(world.bodies[pair.a], world.bodies[pair.b], thickness,
-                              world.time_step);
+  const Vec3<Velocity> passing = world.bodies[pair.a].velocity - world.bodies[pair.b].velocity;
+  const Length reach = max(way_in_tick(world.time_step, sum_of_magnitudes(passing)),
+                           Length::from_raw(1 << k_reach_bits));
+  const Length thickness = max(thickness_of(world, pair.a), thickness_of(world, pair.b));
+  const Length turn =
+      way_in_tick(world.time_step, sum_of_magnitudes(world.surface_velocity_of(pair.a)) +
+                                       sum_of_magnitudes(world.surface_velocity_of(pair.b)));
+  return k_contact_margin +
+         min(min(reach, thickness) + min(turn, k_max_speculation), k_max_speculation);
 }
 
 NarrowPhase::NarrowPhase(WorldData& world, TickContacts& found) : data_(world, found) {
