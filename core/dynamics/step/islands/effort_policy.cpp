@@ -89,10 +89,13 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
     const JointLink& link = scene.joint_links[i];
     IslandTally& tally = islands.tally(islands.of(scene, bodies, link));
     if (joints.solver().number_of(i) == JointSolver::k_in_balls) tally.iterates_only = true;
-    const bool is_free = scene.bodies[link.body_a].is_dynamic() &&
-                         scene.bodies[link.body_b].is_dynamic() &&
-                         !is_driven(scene.joints[link.joint]);
+    const bool drives = is_driven(scene.joints[link.joint]);
+    const bool is_free =
+        scene.bodies[link.body_a].is_dynamic() && scene.bodies[link.body_b].is_dynamic() && !drives;
     if (!is_free) tally.is_carried = true;
+    // The problem of an island has no rows of springs and motors. Solved beside it they push bodies
+    // into contacts that give way, or one undoes the other.
+    if (drives) tally.iterates_only = true;
     const BodyRecord &a = scene.bodies[link.body_a], &b = scene.bodies[link.body_b];
     tally.least_share =
         std::min(tally.least_share, lesser_share(a.inverse_mass_value(), b.inverse_mass_value()));

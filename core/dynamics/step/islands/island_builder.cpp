@@ -61,15 +61,24 @@ ImmovablePush IslandBuilder::push_of(const ContactScene& scene, const ContactRef
   return {of(contact), holds_a ? record.body_a : record.body_b, holds_a ? normal : -normal};
 }
 
+// Whether shapes overlap as only bodies do that were pressed together.
+bool IslandBuilder::is_jammed(const Manifold& manifold) {
+  constexpr Displacement k_deep = Displacement::from_ratio(-1, 250);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i)
+    if (manifold.points[i].separation < k_deep) return true;
+  return false;
+}
+
 void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& contacts) {
   pinched_.clear();
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     const ImmovablePush push = push_of(scene, contact);
     if (push.island == 0) return;
     LKS_ASSERT(push.body < scene.bodies.size() && push.island < islands_.count());
-    if (has_motion(scene.bodies[push.body])) pinched_.add_moving(push);
+    if (has_motion(scene.bodies[push.body]) || is_jammed(scene.manifolds[contact.manifold]))
+      pinched_.add_pressing(push);
   });
-  if (!pinched_.has_moving()) return;
+  if (!pinched_.has_pressing()) return;
   pinched_.sort();
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     const ImmovablePush push = push_of(scene, contact);

@@ -9,25 +9,26 @@
 namespace lockstone {
 
 PinchedIslands::PinchedIslands(std::size_t contact_capacity) {
-  moving_.reserve(contact_capacity);
+  pressing_.reserve(contact_capacity);
 }
 
-void PinchedIslands::add_moving(const ImmovablePush& push) {
-  LKS_ASSERT(push.island != 0 && is_reserved(moving_, moving_.size() + 1));
-  moving_.push_back(push);
+void PinchedIslands::add_pressing(const ImmovablePush& push) {
+  LKS_ASSERT(push.island != 0 && is_reserved(pressing_, pressing_.size() + 1));
+  pressing_.push_back(push);
 }
 
 void PinchedIslands::sort() {
-  std::ranges::sort(moving_, {}, &ImmovablePush::key);
-  moving_.erase(std::unique(moving_.begin(), moving_.end()), moving_.end());
+  std::ranges::sort(pressing_, {}, &ImmovablePush::key);
+  pressing_.erase(std::unique(pressing_.begin(), pressing_.end()), pressing_.end());
 }
 
 bool PinchedIslands::is_pinched(const ImmovablePush& push) const {
   constexpr std::int64_t k_against = -(std::int64_t{1} << 57);  // cosine of −1/8, Q60
-  LKS_ASSERT(std::ranges::is_sorted(moving_, {}, &ImmovablePush::key));
-  auto moving = std::ranges::lower_bound(moving_, push.island, {}, &ImmovablePush::island);
-  for (; moving != moving_.end() && moving->island == push.island; ++moving)
-    if (moving->body != push.body && dot(push.normal, moving->normal).raw < k_against) return true;
+  LKS_ASSERT(std::ranges::is_sorted(pressing_, {}, &ImmovablePush::key));
+  auto pressing = std::ranges::lower_bound(pressing_, push.island, {}, &ImmovablePush::island);
+  for (; pressing != pressing_.end() && pressing->island == push.island; ++pressing)
+    if (pressing->body != push.body && dot(push.normal, pressing->normal).raw < k_against)
+      return true;
   return false;
 }
 

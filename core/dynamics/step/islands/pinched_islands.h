@@ -1,5 +1,5 @@
-// Finds the islands that a moving kinematic body presses against another body that no impulse
-// moves. No impulses satisfy their constraints: they would grow without limit.
+// Finds the islands that are pressed between two bodies that no impulse moves: by one that moves,
+// or overlaps them deeply. No impulses satisfy their constraints: they would grow without limit.
 #pragma once
 
 #include <cstdint>
@@ -29,18 +29,18 @@ class PinchedIslands {
   /// No function but this allocates.
   [[gnu::cold]] explicit PinchedIslands(std::size_t contact_capacity);
 
-  void clear() { moving_.clear(); }
-  /// A push by a body that moves. At most one for each contact.
-  void add_moving(const ImmovablePush& push);
-  [[nodiscard]] bool has_moving() const { return !moving_.empty(); }
+  void clear() { pressing_.clear(); }
+  /// A push by a body that moves or overlaps deeply. At most one for each contact.
+  void add_pressing(const ImmovablePush& push);
+  [[nodiscard]] bool has_pressing() const { return !pressing_.empty(); }
 
   /// Once all are added, and before the first question.
   void sort();
-  /// Whether a moving body pushes the island against this push, of another body.
+  /// Whether such a body pushes the island against this push, of another body.
   [[nodiscard]] bool is_pinched(const ImmovablePush& push) const;
 
  private:
-  std::vector<ImmovablePush> moving_;  // by island
+  std::vector<ImmovablePush> pressing_;  // by island
 };
 
 }  // namespace lockstone
