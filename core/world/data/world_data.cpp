@@ -17,7 +17,7 @@ Position travel(Velocity v, const TimeStep& step) {
 Vec3<Position> turn_travel(const WorldData& world, std::uint32_t body,
                            const Vec3<Position>& reach) {
   const BodyRecord& record = world.bodies[body];
-  const Vec3<Velocity> surface = world.surface_velocity_of(body);
+  const Vec3<Velocity> surface = surface_velocity_of(world, body);
   const auto by = [&](Velocity w, Position arm) {
     return saturated_product(travel(abs(w), world.time_step).raw, arm.raw,
                              Position::frac_bits + record.scale_exponent);
@@ -104,12 +104,6 @@ Bounds WorldData::bounds_of(std::uint32_t body) const {
   return bounds;
 }
 
-Vec3<Velocity> WorldData::surface_velocity_of(std::uint32_t body) const {
-  const BodyRecord& record = bodies[body];
-  if (record.spin == Vec3<Velocity>{}) return {};
-  return surface_velocity(inverse_inertia(record, cache.rotation(body)), record.spin);
-}
-
 void WorldData::refresh(std::uint32_t body) {
   LKS_ASSERT(bodies[body].exists());
   cache.refresh(body, bodies[body]);
@@ -150,6 +144,12 @@ bool WorldData::is_obstacle(std::uint32_t body, std::uint32_t other) const {
   const BodyRecord& obstacle = bodies[other];
   return !obstacle.is_trigger() && should_collide(bodies[body].filter(), obstacle.filter()) &&
          !are_exempt(body, other);
+}
+
+Vec3<Velocity> surface_velocity_of(const WorldData& world, std::uint32_t body) {
+  const BodyRecord& record = world.bodies[body];
+  if (record.spin == Vec3<Velocity>{}) return {};
+  return surface_velocity(inverse_inertia(record, world.cache.rotation(body)), record.spin);
 }
 
 }  // namespace lockstone

@@ -98,8 +98,6 @@ struct WorldData : FluidData, RuleTables, VehicleData, TerrainData {
   }
   /// The bounds of the body, swept over the coming tick, with a margin.
   [[nodiscard]] Bounds bounds_of(std::uint32_t body) const;
-  /// How it turns: ω·2^scale_exponent.
-  [[nodiscard]] Vec3<Velocity> surface_velocity_of(std::uint32_t body) const;
   /// Brings the data derived from one body up to date: after every write to it.
   void refresh(std::uint32_t body);
   /// The same for bounds and the broad phase alone.
@@ -189,5 +187,8 @@ struct WorldData : FluidData, RuleTables, VehicleData, TerrainData {
   const PairRuleRecord* rule = find_rule(pair_rules_of(world, world.header), rule_key(a, b));
   return rule != nullptr && rule->is_ignored();
 }
+
+/// How a body turns: ω·2^scale_exponent.
+[[nodiscard]] Vec3<Velocity> surface_velocity_of(const WorldData& world, std::uint32_t body);
 
 }  // namespace lockstone

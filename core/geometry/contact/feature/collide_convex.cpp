@@ -113,13 +113,13 @@ bool is_steep(const ContactFeature& segment, const Vec3<Unit>& n) {
   return magnitude_of(dot(way, n)) > static_cast<Fine>(norm(way.x, way.y, way.z) / 32);
 }
 
-/// The ends of a clipped segment that are its own. Where it leans, the surface of what is round
-/// about it is elsewhere between them.
+/// The ends of a clipped segment that are its own. Where it leans, the round surface about it is
+/// elsewhere between them.
 std::span<FaceVertex> own_ends(std::span<FaceVertex> clipped) {
-  const auto cut = std::partition(clipped.begin(), clipped.end(), [](const FaceVertex& v) {
-    return (v.feature & k_crossing) == 0;
-  });
-  return clipped.first(static_cast<std::size_t>(cut - clipped.begin()));
+  std::size_t count = 0;
+  for (const FaceVertex& vertex : clipped)
+    if ((vertex.feature & k_crossing) == 0) clipped[count++] = vertex;
+  return clipped.first(count);
 }
 
 /// The manifold from the face of one shape to the feature of the other, the normal from A to B.
