@@ -18,11 +18,13 @@ struct GeneralState {
   Triple angular_velocity{};
 };
 
-/// Plays one scene. Sleep is off unless the scene asks for it.
+/// Plays one scene, which must outlive it. Sleep is off unless the scene asks for it.
 class GeneralEngine {
  public:
   virtual ~GeneralEngine() = default;
 
+  /// Before a step: those at the beginning are there already.
+  virtual void change(const GeneralChange& change) = 0;
   /// A sixtieth of a second.
   virtual void step() = 0;
   virtual void set_motion(int body, const Triple& velocity, const Triple& angular_velocity) = 0;
@@ -32,6 +34,8 @@ class GeneralEngine {
   [[nodiscard]] virtual bool entered(int body) const = 0;
   /// Pairs with contact points in the last step; 0 where an engine does not count them.
   [[nodiscard]] virtual std::uint32_t contacts() const { return 0; }
+  /// Whether every step so far had room for all contacts.
+  [[nodiscard]] virtual bool had_room() const { return true; }
   /// Of the whole state; 0 where an engine has none.
   [[nodiscard]] virtual std::uint64_t hash() const { return 0; }
   /// SVG; empty where an engine draws nothing.

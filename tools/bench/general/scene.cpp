@@ -64,9 +64,9 @@ class Bytes {
     for (int i = 0; i < 8; ++i)
       bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
   }
-  template <std::size_t N>
-  void add(const std::array<double, N>& values) {
-    for (const double x : values)
+  template <class T, std::size_t N>
+  void add(const std::array<T, N>& values) {
+    for (const T x : values)
       add(x);
   }
   template <class T>
@@ -117,6 +117,23 @@ GeneralScene make_scene(const Family& family, std::uint64_t seed, int cap) {
   return std::move(maker.scene);
 }
 
+std::vector<GeneralChange> changes_of(const GeneralScene& scene) {
+  std::vector<GeneralChange> changes(static_cast<std::size_t>(scene.ticks) + 1);
+  const auto at = [&](int tick) { return &changes[static_cast<std::size_t>(tick)]; };
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const GeneralBody& body = scene.bodies[i];
+    if (body.from <= scene.ticks) at(body.from)->come.push_back(static_cast<int>(i));
+    if (body.until <= scene.ticks) at(body.until)->gone.push_back(static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const GeneralJoint& joint = scene.joints[i];
+    const int from = std::max(scene.bodies[static_cast<std::size_t>(joint.a)].from,
+                              scene.bodies[static_cast<std::size_t>(joint.b)].from);
+    if (from <= scene.ticks) at(from)->joints.push_back(static_cast<int>(i));
+  }
+  return changes;
+}
+
 std::vector<std::uint8_t> bytes_of(const GeneralScene& scene) {
   Bytes out;
   out.all(scene.seed, scene.ticks, scene.gravity, scene.may_sleep, scene.passive, scene.must_rest,
@@ -124,14 +141,19 @@ std::vector<std::uint8_t> bytes_of(const GeneralScene& scene) {
   for (const int body : scene.watched)
     out.add(body);
   for (const GeneralBody& b : scene.bodies) {
-    out.all(b.form, b.motion, b.size, b.position, b.orientation, b.velocity, b.angular_velocity,
-            b.density, b.friction, b.restitution, b.collides, b.trigger, b.bullet);
+    out.all(b.form, b.motion, b.from, b.until, b.size, b.position, b.orientation, b.velocity,
+            b.angular_velocity, b.density, b.friction, b.restitution, b.collides, b.trigger,
+            b.bullet);
     for (const Triple& point : b.points)
       out.add(point);
+    for (const auto& triangle : b.triangles)
+      out.add(triangle);
+    for (const GeneralPart& part : b.parts)
+      out.all(part.form, part.size, part.position, part.orientation);
   }
   for (const GeneralJoint& j : scene.joints)
     out.all(j.link, j.a, j.b, j.anchor_a, j.anchor_b, j.frame_a, j.frame_b, j.limited, j.lower,
-            j.upper, j.speed, j.effort, j.target, j.hertz, j.damping, j.turn);
+            j.upper, j.cone, j.speed, j.effort, j.target, j.hertz, j.damping, j.turn);
   for (const GeneralMove& m : scene.moves)
     out.all(m.tick, m.body, m.velocity, m.angular_velocity);
   return std::move(out.bytes);
@@ -163,6 +185,8 @@ double volume_of(const GeneralBody& body) {
     case Form::box:
       return 8 * s[0] * s[1] * s[2];
     case Form::hull:
+    case Form::mesh:
+    case Form::compound:
       break;
   }
   const Triple half = extent_of(body);

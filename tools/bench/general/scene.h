@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,15 +16,33 @@ namespace lockstone::bench {
 using Triple = std::array<double, 3>;
 using Turn = std::array<double, 4>;  ///< a unit quaternion: x, y, z, w
 
-enum class Form { sphere, box, capsule, hull };
+enum class Form { sphere, box, capsule, hull, mesh, compound };
 enum class Motion { fixed, kinematic, dynamic };
 
-/// A hull's points are about its own origin, which need not be its centre of mass.
-struct GeneralBody {
+/// The points of a hull are about its own origin, which need not be its centre of mass.
+struct GeneralShape {
   Form form = Form::box;
-  Motion motion = Motion::dynamic;
   Triple size{0.5, 0.5, 0.5};  ///< half extents; or radius, half the core along y, unused
-  std::vector<Triple> points;  ///< of a hull
+  std::vector<Triple> points;  ///< of a hull or a mesh
+  std::vector<std::array<int, 3>> triangles;  ///< of a mesh: points, counter-clockwise from outside
+
+  friend auto operator<=>(const GeneralShape&, const GeneralShape&) = default;
+};
+
+/// Of a compound, in its body's frame.
+struct GeneralPart : GeneralShape {
+  Triple position{};
+  Turn orientation{0, 0, 0, 1};
+};
+
+inline constexpr int k_for_ever = 1 << 30;
+
+/// A mesh or a compound does not belong to a dynamic body.
+struct GeneralBody : GeneralShape {
+  std::vector<GeneralPart> parts;  ///< of a compound
+  Motion motion = Motion::dynamic;
+  int from = 0;            ///< the tick before which it is added
+  int until = k_for_ever;  ///< the tick before which it is removed
   Triple position{};
   Turn orientation{0, 0, 0, 1};
   Triple velocity{};
@@ -51,9 +70,10 @@ struct GeneralJoint {
   Triple anchor_b{};
   Turn frame_a{0, 0, 0, 1};
   Turn frame_b{0, 0, 0, 1};
-  bool limited = false;  ///< a hinge's angle, a slider's way, a rod's length
+  bool limited = false;  ///< a hinge's angle, a slider's way, a rod's length, a ball's twist
   double lower = 0;
   double upper = 0;
+  double cone = 0;    ///< of a limited ball: the most that its x axes part, rad
   double speed = 0;   ///< of the motor of a hinge or slider
   double effort = 0;  ///< the most it can do, N or N·m; 0: no motor
   double target = 0;  ///< of the spring; a rod's length without one
@@ -68,6 +88,14 @@ struct GeneralMove {
   int body = 0;
   Triple velocity{};
   Triple angular_velocity{};
+};
+
+/// The bodies that go and come before a tick, and the joints that come with them: their indices.
+/// Joints go with their bodies.
+struct GeneralChange {
+  std::vector<int> gone;
+  std::vector<int> come;
+  std::vector<int> joints;
 };
 
 /// The kind of a family's error: the one figure that its scenes are judged by.
@@ -128,6 +156,9 @@ inline constexpr int k_no_cap = 1 << 20;
 
 /// The same scene on every machine. `cap` bounds each count that the family draws.
 [[nodiscard]] GeneralScene make_scene(const Family& family, std::uint64_t seed, int cap = k_no_cap);
+
+/// The bodies and joints at the beginning, and the changes before each later tick.
+[[nodiscard]] std::vector<GeneralChange> changes_of(const GeneralScene& scene);
 
 /// Every number of the scene as bytes, in order: two scenes are one when these are equal.
 [[nodiscard]] std::vector<std::uint8_t> bytes_of(const GeneralScene& scene);

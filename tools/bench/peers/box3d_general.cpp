@@ -1,6 +1,8 @@
 // The scenes of families in Box3D, by its public headers, in single precision.
 #include <algorithm>
+#include <map>
 #include <mutex>
+#include <vector>
 
 #include <box3d/box3d.h>
 
@@ -32,7 +34,7 @@ b3WorldId world_of(const GeneralScene& scene) {
   b3WorldDef def = b3DefaultWorldDef();
   def.gravity = vec({0, -scene.gravity, 0});
   def.enableSleep = scene.may_sleep;
-  def.workerCount = 0;
+  def.workerCount = 0;  // the caller's thread alone
   const std::scoped_lock lock(world_list());
   return b3CreateWorld(&def);
 }
@@ -61,38 +63,86 @@ b3ShapeDef shape_def(const GeneralBody& body) {
   return def;
 }
 
-void add_hull(b3BodyId id, const b3ShapeDef& def, const GeneralBody& body) {
+void add_hull(b3BodyId id, const b3ShapeDef& def, const GeneralPart& part) {
   std::vector<b3Vec3> points;
-  for (const Triple& point : body.points)
-    points.push_back(vec(point));
+  for (const Triple& point : part.points)
+    points.push_back(vec(part.position + turned(part.orientation, point)));
   b3HullData* hull = b3CreateHull(points.data(), static_cast<int>(points.size()), 64);
   if (hull == nullptr) return;
   b3CreateHullShape(id, &def, hull);
   b3DestroyHull(hull);
 }
 
-void add_shape(b3BodyId id, const GeneralBody& body) {
-  const b3ShapeDef def = shape_def(body);
-  const b3Vec3 size = vec(body.size);
-  if (body.form == Form::sphere) {
-    const b3Sphere sphere{{0, 0, 0}, size.x};
+void add_part(b3BodyId id, const b3ShapeDef& def, const GeneralPart& part) {
+  const b3Vec3 size = vec(part.size), at = vec(part.position);
+  if (part.form == Form::sphere) {
+    const b3Sphere sphere{at, size.x};
     b3CreateSphereShape(id, &def, &sphere);
-  } else if (body.form == Form::capsule) {
-    const b3Capsule capsule{{0, -size.y, 0}, {0, size.y, 0}, size.x};
+  } else if (part.form == Form::capsule) {
+    const Triple half = turned(part.orientation, {0, part.size[1], 0});
+    const b3Capsule capsule{vec(part.position - half), vec(part.position + half), size.x};
     b3CreateCapsuleShape(id, &def, &capsule);
-  } else if (body.form == Form::box) {
-    const b3BoxHull box = b3MakeBoxHull(size.x, size.y, size.z);
+  } else if (part.form == Form::box) {
+    const b3Transform place{at, quat(part.orientation)};
+    const b3BoxHull box = b3MakeTransformedBoxHull(size.x, size.y, size.z, place);
     b3CreateHullShape(id, &def, &box.base);
   } else {
-    add_hull(id, def, body);
+    add_hull(id, def, part);
   }
 }
 
-// A hinge of theirs turns about z.
+b3MeshData* mesh_of(const GeneralShape& shape) {
+  std::vector<b3Vec3> vertices;
+  for (const Triple& point : shape.points)
+    vertices.push_back(vec(point));
+  std::vector<std::int32_t> indices;
+  for (const auto& triangle : shape.triangles)
+    indices.insert(indices.end(), triangle.begin(), triangle.end());
+  b3MeshDef def{};
+  def.vertices = vertices.data();
+  def.indices = indices.data();
+  def.vertexCount = static_cast<int>(vertices.size());
+  def.triangleCount = static_cast<int>(shape.triangles.size());
+  def.identifyEdges = true;
+  return b3CreateMesh(&def, nullptr, 0);
+}
+
+// Meshes by their numbers: the shapes that have one do not own it.
+class Meshes {
+ public:
+  Meshes() = default;
+  Meshes(const Meshes&) = delete;
+  Meshes& operator=(const Meshes&) = delete;
+  ~Meshes() {
+    for (const auto& [shape, mesh] : known_)
+      b3DestroyMesh(mesh);
+  }
+  [[nodiscard]] const b3MeshData* of(const GeneralShape& shape) {
+    b3MeshData*& mesh = known_[shape];
+    if (mesh == nullptr) mesh = mesh_of(shape);
+    return mesh;
+  }
+
+ private:
+  std::map<GeneralShape, b3MeshData*> known_;
+};
+
+void add_shapes(b3BodyId id, const GeneralBody& body, Meshes& meshes) {
+  const b3ShapeDef def = shape_def(body);
+  if (body.form == Form::mesh)
+    b3CreateMeshShape(id, &def, meshes.of(body), b3Vec3_one);
+  else if (body.form == Form::compound)
+    for (const GeneralPart& part : body.parts)
+      add_part(id, def, part);
+  else
+    add_part(id, def, {body});
+}
+
+// A hinge of theirs turns about z, and limits of a ball are about it.
 b3JointDef base_of(const b3JointDef& standard, const GeneralJoint& joint, b3BodyId a, b3BodyId b) {
   b3JointDef def = standard;
-  const Turn about =
-      joint.link == Link::hinge ? turn_about({0, 1, 0}, std::acos(0.0)) : Turn{0, 0, 0, 1};
+  const bool is_about_z = joint.link == Link::hinge || (joint.link == Link::ball && joint.limited);
+  const Turn about = is_about_z ? turn_about({0, 1, 0}, std::acos(0.0)) : Turn{0, 0, 0, 1};
   def.bodyIdA = a;
   def.bodyIdB = b;
   def.localFrameA = {vec(joint.anchor_a), quat(joint.frame_a * about)};
@@ -143,6 +193,20 @@ void add_rod(b3WorldId world, const GeneralJoint& joint, b3BodyId a, b3BodyId b)
   b3CreateDistanceJoint(world, &def);
 }
 
+void add_ball(b3WorldId world, const GeneralJoint& joint, b3BodyId a, b3BodyId b) {
+  b3SphericalJointDef def = b3DefaultSphericalJointDef();
+  def.base = base_of(def.base, joint, a, b);
+  def.enableConeLimit = def.enableTwistLimit = joint.limited;
+  def.coneAngle = static_cast<float>(joint.cone);
+  def.lowerTwistAngle = static_cast<float>(joint.lower);
+  def.upperTwistAngle = static_cast<float>(joint.upper);
+  def.enableSpring = joint.hertz > 0;
+  def.hertz = static_cast<float>(joint.hertz);
+  def.dampingRatio = static_cast<float>(joint.damping);
+  def.targetRotation = quat(turn_by(joint.turn));
+  b3CreateSphericalJoint(world, &def);
+}
+
 void add_joint(b3WorldId world, const GeneralJoint& joint, b3BodyId a, b3BodyId b) {
   if (joint.link == Link::hinge) return add_hinge(world, joint, a, b);
   if (joint.link == Link::slider) return add_slider(world, joint, a, b);
@@ -153,32 +217,37 @@ void add_joint(b3WorldId world, const GeneralJoint& joint, b3BodyId a, b3BodyId 
     b3CreateWeldJoint(world, &def);
     return;
   }
-  b3SphericalJointDef def = b3DefaultSphericalJointDef();
-  def.base = base_of(def.base, joint, a, b);
-  def.enableSpring = joint.hertz > 0;
-  def.hertz = static_cast<float>(joint.hertz);
-  def.dampingRatio = static_cast<float>(joint.damping);
-  def.targetRotation = quat(turn_by(joint.turn));
-  b3CreateSphericalJoint(world, &def);
+  add_ball(world, joint, a, b);
 }
 
 class Box3dGeneral final : public GeneralEngine {
  public:
   Box3dGeneral(const GeneralScene& scene, int substeps)
-      : world_(world_of(scene)), substeps_(substeps) {
-    for (const GeneralBody& body : scene.bodies) {
-      const b3BodyDef def = body_def(body);
-      bodies_.push_back(b3CreateBody(world_, &def));
-      add_shape(bodies_.back(), body);
-    }
-    for (const GeneralJoint& joint : scene.joints)
-      add_joint(world_, joint, body(joint.a), body(joint.b));
+      : scene_(scene),
+        world_(world_of(scene)),
+        substeps_(substeps),
+        bodies_(scene.bodies.size(), b3_nullBodyId) {
+    change(changes_of(scene).front());
   }
   ~Box3dGeneral() override {
     const std::scoped_lock lock(world_list());
     b3DestroyWorld(world_);
   }
 
+  void change(const GeneralChange& change) override {
+    for (const int index : change.gone)
+      b3DestroyBody(body(index));
+    for (const int index : change.come) {
+      const auto i = static_cast<std::size_t>(index);
+      const b3BodyDef def = body_def(scene_.bodies[i]);
+      bodies_[i] = b3CreateBody(world_, &def);
+      add_shapes(bodies_[i], scene_.bodies[i], meshes_);
+    }
+    for (const int index : change.joints) {
+      const GeneralJoint& joint = scene_.joints[static_cast<std::size_t>(index)];
+      add_joint(world_, joint, body(joint.a), body(joint.b));
+    }
+  }
   void step() override { b3World_Step(world_, 1.0F / 60, substeps_); }
   void set_motion(int index, const Triple& velocity, const Triple& angular_velocity) override {
     b3Body_SetLinearVelocity(body(index), vec(velocity));
@@ -204,6 +273,8 @@ class Box3dGeneral final : public GeneralEngine {
  private:
   [[nodiscard]] b3BodyId body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }
 
+  const GeneralScene& scene_;
+  Meshes meshes_;
   b3WorldId world_;
   int substeps_;
   std::vector<b3BodyId> bodies_;

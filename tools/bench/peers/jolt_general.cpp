@@ -1,6 +1,8 @@
 // The scenes of families in Jolt, by its public headers, in single precision on one thread.
 #include <algorithm>
+#include <map>
 #include <mutex>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -13,25 +15,18 @@
 #include <Jolt/Core/TempAllocator.h>
 #include <Jolt/Physics/Body/BodyCreationSettings.h>
 #include <Jolt/Physics/Collision/GroupFilterTable.h>
-#include <Jolt/Physics/Collision/Shape/BoxShape.h>
-#include <Jolt/Physics/Collision/Shape/CapsuleShape.h>
-#include <Jolt/Physics/Collision/Shape/ConvexHullShape.h>
-#include <Jolt/Physics/Collision/Shape/SphereShape.h>
-#include <Jolt/Physics/Constraints/DistanceConstraint.h>
-#include <Jolt/Physics/Constraints/FixedConstraint.h>
-#include <Jolt/Physics/Constraints/HingeConstraint.h>
-#include <Jolt/Physics/Constraints/PointConstraint.h>
-#include <Jolt/Physics/Constraints/SliderConstraint.h>
 #include <Jolt/Physics/PhysicsSystem.h>
 #include <Jolt/RegisterTypes.h>
 
-#include "tools/bench/general/vectors.h"
 #include "tools/bench/peers/general_peers.h"
+#include "tools/bench/peers/jolt_parts.h"
 
 namespace lockstone::bench {
 namespace {
 
-using namespace general;
+using jolt::quat;
+using jolt::triple;
+using jolt::vec;
 
 constexpr JPH::ObjectLayer k_fixed = 0, k_moving = 1, k_nothing = 2;
 
@@ -44,32 +39,28 @@ void start_library() {
   });
 }
 
-JPH::Vec3 vec(const Triple& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-JPH::Quat quat(const Turn& q) {
-  return JPH::Quat(static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]),
-                   static_cast<float>(q[3]))
-      .Normalized();
-}
-Triple triple(const JPH::Vec3& v) {
-  return {v.GetX(), v.GetY(), v.GetZ()};
-}
+constexpr JPH::BroadPhaseLayer k_fixed_tree(0), k_moving_tree(1);
 
 class Layers final : public JPH::BroadPhaseLayerInterface {
  public:
-  [[nodiscard]] JPH::uint GetNumBroadPhaseLayers() const override { return 1; }
-  [[nodiscard]] JPH::BroadPhaseLayer GetBroadPhaseLayer(JPH::ObjectLayer) const override {
-    return JPH::BroadPhaseLayer(0);
+  [[nodiscard]] JPH::uint GetNumBroadPhaseLayers() const override { return 2; }
+  [[nodiscard]] JPH::BroadPhaseLayer GetBroadPhaseLayer(JPH::ObjectLayer layer) const override {
+    return layer == k_fixed ? k_fixed_tree : k_moving_tree;
   }
 #if defined(JPH_EXTERNAL_PROFILE) || defined(JPH_PROFILE_ENABLED)
-  [[nodiscard]] const char* GetBroadPhaseLayerName(JPH::BroadPhaseLayer) const override {
-    return "all";
+  [[nodiscard]] const char* GetBroadPhaseLayerName(JPH::BroadPhaseLayer layer) const override {
+    return layer == k_fixed_tree ? "fixed" : "moving";
   }
 #endif
 };
 
-class AllLayers final : public JPH::ObjectVsBroadPhaseLayerFilter {};
+class Trees final : public JPH::ObjectVsBroadPhaseLayerFilter {
+ public:
+  [[nodiscard]] bool ShouldCollide(JPH::ObjectLayer layer,
+                                   JPH::BroadPhaseLayer tree) const override {
+    return layer == k_moving || (layer == k_fixed && tree == k_moving_tree);
+  }
+};
 
 class Pairs final : public JPH::ObjectLayerPairFilter {
  public:
@@ -89,28 +80,43 @@ class Sensors final : public JPH::ContactListener {
   std::set<JPH::BodyID> seen;
 };
 
-JPH::ShapeRefC hull_of(const GeneralBody& body) {
-  JPH::Array<JPH::Vec3> points;
-  for (const Triple& point : body.points)
-    points.push_back(vec(point));
-  const JPH::ShapeSettings::ShapeResult made = JPH::ConvexHullShapeSettings(points).Create();
-  return made.IsValid() ? made.Get() : JPH::ShapeRefC();
-}
-
-JPH::ShapeRefC shape_of(const GeneralBody& body) {
-  const JPH::Vec3 size = vec(body.size);
-  JPH::ShapeRefC shape;
-  if (body.form == Form::sphere) shape = new JPH::SphereShape(size.GetX());
-  if (body.form == Form::capsule) shape = new JPH::CapsuleShape(size.GetY(), size.GetX());
-  if (body.form == Form::box)
-    shape = new JPH::BoxShape(size, std::min(0.05F, 0.1F * size.ReduceMin()));
-  if (body.form == Form::hull) shape = hull_of(body);
-  if (shape != nullptr) {
-    auto* convex = static_cast<JPH::ConvexShape*>(const_cast<JPH::Shape*>(shape.GetPtr()));
-    convex->SetDensity(static_cast<float>(body.density));
+// Bodies that joints connect are one group, which excludes the pairs that a joint ties.
+class Groups {
+ public:
+  explicit Groups(const GeneralScene& scene) : root_(scene.bodies.size()), place_(root_.size()) {
+    std::iota(root_.begin(), root_.end(), 0U);
+    for (const GeneralJoint& joint : scene.joints)
+      root_[root_of(index(joint.a))] = root_of(index(joint.b));
+    std::vector<JPH::uint> sizes(root_.size());
+    for (std::size_t i = 0; i < root_.size(); ++i)
+      place_[i] = sizes[root_of(i)]++;
+    for (const GeneralJoint& joint : scene.joints) {
+      const std::size_t root = root_of(index(joint.a));
+      JPH::Ref<JPH::GroupFilterTable>& table = tables_[root];
+      if (table == nullptr) table = new JPH::GroupFilterTable(sizes[root]);
+      table->DisableCollision(place_[index(joint.a)], place_[index(joint.b)]);
+    }
   }
-  return shape;
-}
+  [[nodiscard]] JPH::CollisionGroup of(int body) {
+    const std::size_t root = root_of(index(body));
+    const auto table = tables_.find(root);
+    if (table == tables_.end()) return {};
+    return {table->second.GetPtr(), static_cast<JPH::CollisionGroup::GroupID>(root),
+            place_[index(body)]};
+  }
+
+ private:
+  static std::size_t index(int body) { return static_cast<std::size_t>(body); }
+  std::size_t root_of(std::size_t body) {
+    while (root_[body] != body)
+      body = root_[body] = root_[root_[body]];
+    return body;
+  }
+
+  std::vector<std::size_t> root_;
+  std::vector<JPH::uint> place_;
+  std::map<std::size_t, JPH::Ref<JPH::GroupFilterTable>> tables_;
+};
 
 JPH::BodyCreationSettings settings_of(const GeneralBody& body, const JPH::Shape* shape,
                                       bool may_sleep) {
@@ -133,123 +139,56 @@ JPH::BodyCreationSettings settings_of(const GeneralBody& body, const JPH::Shape*
   return def;
 }
 
-// Places and axes in each body's frame, from its centre of mass.
-struct Frames {
-  JPH::Vec3 point_a, point_b, x_a, x_b, y_a, y_b;
-};
-
-Frames frames_of(const GeneralJoint& joint, const JPH::Body& a, const JPH::Body& b) {
-  return {vec(joint.anchor_a) - a.GetShape()->GetCenterOfMass(),
-          vec(joint.anchor_b) - b.GetShape()->GetCenterOfMass(),
-          vec(turned(joint.frame_a, {1, 0, 0})),
-          vec(turned(joint.frame_b, {1, 0, 0})),
-          vec(turned(joint.frame_a, {0, 1, 0})),
-          vec(turned(joint.frame_b, {0, 1, 0}))};
-}
-
-template <class Settings>
-Settings local(const Frames& f) {
-  Settings def;
-  def.mSpace = JPH::EConstraintSpace::LocalToBodyCOM;
-  def.mPoint1 = JPH::RVec3(f.point_a);
-  def.mPoint2 = JPH::RVec3(f.point_b);
-  return def;
-}
-
-void set_limits(float& low, float& high, const GeneralJoint& joint) {
-  if (!joint.limited) return;
-  low = static_cast<float>(joint.lower);
-  high = static_cast<float>(joint.upper);
-}
-
-JPH::TwoBodyConstraint* hinge(const GeneralJoint& joint, JPH::Body& a, JPH::Body& b,
-                              const Frames& f) {
-  auto def = local<JPH::HingeConstraintSettings>(f);
-  def.mHingeAxis1 = f.x_a;
-  def.mHingeAxis2 = f.x_b;
-  def.mNormalAxis1 = f.y_a;
-  def.mNormalAxis2 = f.y_b;
-  set_limits(def.mLimitsMin, def.mLimitsMax, joint);
-  if (joint.effort > 0) def.mMotorSettings.SetTorqueLimit(static_cast<float>(joint.effort));
-  def.mMotorSettings.mSpringSettings = {JPH::ESpringMode::FrequencyAndDamping,
-                                        static_cast<float>(joint.hertz),
-                                        static_cast<float>(joint.damping)};
-  auto* made = static_cast<JPH::HingeConstraint*>(def.Create(a, b));
-  if (joint.effort > 0) {
-    made->SetMotorState(JPH::EMotorState::Velocity);
-    made->SetTargetAngularVelocity(static_cast<float>(joint.speed));
-  } else if (joint.hertz > 0) {
-    made->SetMotorState(JPH::EMotorState::Position);
-    made->SetTargetAngle(static_cast<float>(joint.target));
-  }
-  return made;
-}
-
-JPH::TwoBodyConstraint* rod(const GeneralJoint& joint, JPH::Body& a, JPH::Body& b,
-                            const Frames& f) {
-  auto def = local<JPH::DistanceConstraintSettings>(f);
-  def.mMinDistance = def.mMaxDistance = static_cast<float>(joint.target);
-  set_limits(def.mMinDistance, def.mMaxDistance, joint);
-  def.mLimitsSpringSettings = {JPH::ESpringMode::FrequencyAndDamping,
-                               static_cast<float>(joint.hertz), static_cast<float>(joint.damping)};
-  return def.Create(a, b);
-}
-
-JPH::TwoBodyConstraint* constraint_of(const GeneralJoint& joint, JPH::Body& a, JPH::Body& b) {
-  const Frames f = frames_of(joint, a, b);
-  if (joint.link == Link::hinge) return hinge(joint, a, b, f);
-  if (joint.link == Link::rod) return rod(joint, a, b, f);
-  if (joint.link == Link::ball) return local<JPH::PointConstraintSettings>(f).Create(a, b);
-  if (joint.link == Link::weld) {
-    auto def = local<JPH::FixedConstraintSettings>(f);
-    def.mAxisX1 = f.x_a;
-    def.mAxisX2 = f.x_b;
-    def.mAxisY1 = f.y_a;
-    def.mAxisY2 = f.y_b;
-    return def.Create(a, b);
-  }
-  auto def = local<JPH::SliderConstraintSettings>(f);
-  def.mSliderAxis1 = f.x_a;
-  def.mSliderAxis2 = f.x_b;
-  def.mNormalAxis1 = f.y_a;
-  def.mNormalAxis2 = f.y_b;
-  set_limits(def.mLimitsMin, def.mLimitsMax, joint);
-  return def.Create(a, b);
+// Pairs of bodies that a step has room for, and as many contacts.
+JPH::uint room_of(const GeneralScene& scene) {
+  const auto bodies = static_cast<JPH::uint>(scene.bodies.size());
+  return std::max({1024U, std::min(65536U, 64 * bodies), 16 * bodies});
 }
 
 class JoltGeneral final : public GeneralEngine {
  public:
   JoltGeneral(const GeneralScene& scene, int substeps)
-      : memory_(64 << 20), substeps_(substeps), jobs_(JPH::cMaxPhysicsJobs) {
-    const auto bodies = static_cast<JPH::uint>(scene.bodies.size());
-    const JPH::uint pairs = std::min(65536U, std::max(1024U, 64 * bodies));
-    system_.Init(bodies + 1, 0, pairs, pairs, layers_, all_, pairs_);
+      : scene_(scene),
+        groups_(scene),
+        memory_((64U << 20) + std::size_t{k_bytes_a_pair} * room_of(scene)),
+        substeps_(substeps),
+        jobs_(JPH::cMaxPhysicsJobs),
+        bodies_(scene.bodies.size()),
+        joints_(scene.joints.size()) {
+    system_.Init(static_cast<JPH::uint>(bodies_.size()) + 1, 0, room_of(scene), room_of(scene),
+                 layers_, trees_, pairs_);
     system_.SetGravity(vec({0, -scene.gravity, 0}));
-    system_.SetContactListener(&sensors_);
-    auto* group = new JPH::GroupFilterTable(bodies);
-    for (const GeneralJoint& joint : scene.joints)
-      group->DisableCollision(static_cast<JPH::uint>(joint.a), static_cast<JPH::uint>(joint.b));
-    const JPH::Ref<JPH::GroupFilter> filter = group;
-    for (const GeneralBody& body : scene.bodies)
-      add(body, scene, filter);
-    for (const GeneralJoint& joint : scene.joints)
-      system_.AddConstraint(constraint_of(joint, *at(joint.a), *at(joint.b)));
+    const auto is_trigger = [](const GeneralBody& body) { return body.trigger; };
+    if (std::ranges::any_of(scene.bodies, is_trigger)) system_.SetContactListener(&sensors_);
+    change(changes_of(scene).front());
     system_.OptimizeBroadPhase();
   }
   ~JoltGeneral() override {
-    JPH::Constraints all = system_.GetConstraints();
-    for (const auto& constraint : all)
-      system_.RemoveConstraint(constraint);
-    for (JPH::Body* body : bodies_) {
-      interface().RemoveBody(body->GetID());
-      interface().DestroyBody(body->GetID());
-    }
+    for (const JPH::Ref<JPH::TwoBodyConstraint>& joint : joints_)
+      if (joint != nullptr) system_.RemoveConstraint(joint);
+    joints_.clear();
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (bodies_[i] != nullptr) remove(i);
   }
 
+  void change(const GeneralChange& change) override {
+    for (const int index : change.gone)
+      remove(static_cast<std::size_t>(index));
+    for (const int index : change.come)
+      add(index);
+    for (const int index : change.joints) {
+      const auto i = static_cast<std::size_t>(index);
+      const GeneralJoint& joint = scene_.joints[i];
+      joints_[i] = jolt::constraint_of(joint, *at(joint.a), *at(joint.b));
+      system_.AddConstraint(joints_[i]);
+    }
+  }
   void step() override {
     sensors_.seen.clear();
-    system_.Update(1.0F / 60, substeps_, &memory_, &jobs_);
+    const JPH::EPhysicsUpdateError error = system_.Update(1.0F / 60, substeps_, &memory_, &jobs_);
+    had_room_ = had_room_ && error == JPH::EPhysicsUpdateError::None;
   }
+  [[nodiscard]] bool had_room() const override { return had_room_; }
   void set_motion(int body, const Triple& velocity, const Triple& angular_velocity) override {
     interface().SetLinearAndAngularVelocity(at(body)->GetID(), vec(velocity),
                                             vec(angular_velocity));
@@ -271,18 +210,35 @@ class JoltGeneral final : public GeneralEngine {
   [[nodiscard]] JPH::BodyInterface& interface() { return system_.GetBodyInterfaceNoLock(); }
   [[nodiscard]] JPH::Body* at(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
 
-  void add(const GeneralBody& body, const GeneralScene& scene,
-           const JPH::Ref<JPH::GroupFilter>& filter) {
-    const JPH::ShapeRefC shape = shape_of(body);
-    JPH::BodyCreationSettings def = settings_of(body, shape, scene.may_sleep);
-    const auto index = static_cast<JPH::CollisionGroup::SubGroupID>(bodies_.size());
-    if (!scene.joints.empty()) def.mCollisionGroup = JPH::CollisionGroup(filter, 0, index);
-    bodies_.push_back(interface().CreateBody(def));
-    interface().AddBody(bodies_.back()->GetID(), JPH::EActivation::Activate);
+  void add(int index) {
+    const GeneralBody& body = scene_.bodies[static_cast<std::size_t>(index)];
+    const JPH::ShapeRefC shape = shapes_.of_body(body);
+    JPH::BodyCreationSettings def = settings_of(body, shape, scene_.may_sleep);
+    def.mCollisionGroup = groups_.of(index);
+    JPH::Body*& made_body = bodies_[static_cast<std::size_t>(index)];
+    made_body = interface().CreateBody(def);
+    interface().AddBody(made_body->GetID(), JPH::EActivation::Activate);
+  }
+  // Its joints first.
+  void remove(std::size_t index) {
+    for (JPH::Ref<JPH::TwoBodyConstraint>& joint : joints_) {
+      if (joint == nullptr) continue;
+      if (joint->GetBody1() != bodies_[index] && joint->GetBody2() != bodies_[index]) continue;
+      system_.RemoveConstraint(joint);
+      joint = nullptr;
+    }
+    interface().RemoveBody(bodies_[index]->GetID());
+    interface().DestroyBody(bodies_[index]->GetID());
+    bodies_[index] = nullptr;
   }
 
+  static constexpr std::size_t k_bytes_a_pair = 1536;
+
+  const GeneralScene& scene_;
+  Groups groups_;
+  jolt::Shapes shapes_;
   Layers layers_;
-  AllLayers all_;
+  Trees trees_;
   Pairs pairs_;
   Sensors sensors_;
   JPH::TempAllocatorImpl memory_;
@@ -290,6 +246,8 @@ class JoltGeneral final : public GeneralEngine {
   JPH::JobSystemSingleThreaded jobs_;
   JPH::PhysicsSystem system_;
   std::vector<JPH::Body*> bodies_;
+  std::vector<JPH::Ref<JPH::TwoBodyConstraint>> joints_;
+  bool had_room_ = true;
 };
 
 }  // namespace
