@@ -1,8 +1,9 @@
 // Ragdolls that fall on a grid of meshes, a row of them every 48 ticks; from the tenth row on the
 // oldest go. After Box3D's benchmark "rain" (Erin Catto, shared/benchmarks.c): its places, meshes
-// and numbers, with the ragdolls of our own scene.
+// and numbers, with the ragdolls of our own scene, or with figures of its proportions.
 #include <vector>
 
+#include "tools/bench/speed/figure.h"
 #include "tools/bench/speed/speed_scene.h"
 #include "tools/scenes/assets.h"
 
@@ -85,7 +86,7 @@ Position middle_of(int cell) {
 
 World make_ragdoll_rain(BroadPhaseKind broad_phase) {
   const AssetPtr cell = make_cell();
-  WorldDef def = speed_def(broad_phase, 4096, 65'536, 32'768);
+  WorldDef def = speed_def(broad_phase, 8192, 65'536, 32'768);
   def.joint_capacity = 4096;
   World world = make_speed_world(def, {cell});
   for (int i = 0; i < k_cells * k_cells; ++i) {
@@ -104,26 +105,38 @@ void remove_column(World& world, std::uint64_t column) {
   }
 }
 
-void add_column(World& world, std::uint64_t column) {
+using AddOne = void(World&, const Vec3<Position>&, std::uint64_t);
+
+void add_column(World& world, std::uint64_t column, AddOne& add) {
   for (int i = 0; i < k_cells * k_group; ++i) {
     const Position aside = millimetres(i % k_group * 750);
-    scenes::add_ragdoll(world,
-                        {middle_of(static_cast<int>(column)) + aside, 20_m, middle_of(i / k_group)},
-                        column + 1);
+    add(world, {middle_of(static_cast<int>(column)) + aside, 20_m, middle_of(i / k_group)},
+        column + 1);
   }
 }
 
-void rain(World& world) {
+void rain(World& world, AddOne& add) {
   if (world.tick() % k_every != 0) return;
   const std::uint64_t column = world.tick() / k_every % k_cells;
   remove_column(world, column);
-  add_column(world, column);
+  add_column(world, column, add);
+}
+
+void rain_ragdolls(World& world) {
+  rain(world, scenes::add_ragdoll);
+}
+
+void rain_figures(World& world) {
+  rain(world, add_figure);
 }
 
 }  // namespace
 
 constinit const SpeedScene k_ragdoll_rain{"ragdoll-rain",
                                           "300 ragdolls fall on 100 meshes of floor and ring", 1000,
-                                          make_ragdoll_rain, rain};
+                                          make_ragdoll_rain, rain_ragdolls};
+constinit const SpeedScene k_figure_rain{
+    "figure-rain", "300 figures of 14 bodies fall on 100 meshes of floor and ring", 1000,
+    make_ragdoll_rain, rain_figures};
 
 }  // namespace lockstone::bench

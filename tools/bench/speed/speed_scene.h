@@ -19,6 +19,8 @@ struct SpeedScene {
 
   /// Commands and queries before a step, timed with it; may be null.
   void (*drive)(World& world) = nullptr;
+
+  bool asks = false;  ///< whether `drive` asks queries
 };
 
 /// All, in the order in which they are listed.
@@ -40,7 +42,7 @@ extern const SpeedScene k_convex_pile;                                     // co
 extern const SpeedScene k_joint_grid;                                      // joint_grid.cpp
 extern const SpeedScene k_washer;                                          // washer.cpp
 extern const SpeedScene k_junkyard;                                        // junkyard.cpp
-extern const SpeedScene k_ragdoll_rain;                                    // ragdoll_rain.cpp
+extern const SpeedScene k_ragdoll_rain, k_figure_rain;                     // ragdoll_rain.cpp
 extern const SpeedScene k_terrain;                                         // terrain.cpp
 extern const SpeedScene k_storm;                                           // storm.cpp
 extern const SpeedScene k_city;                                            // city.cpp

@@ -86,8 +86,8 @@ void ask(World& world) {
 
 }  // namespace
 
-constinit const SpeedScene k_storm{"storm",
-                                   "4,096 rays and 512 casts a tick through a pile of 3,200 bodies",
-                                   200, make_storm, ask};
+constinit const SpeedScene k_storm{
+    "storm", "4,096 rays and 512 casts a tick through a pile of 3,200 bodies", 200, make_storm, ask,
+    true};
 
 }  // namespace lockstone::bench
