@@ -223,6 +223,7 @@ class Files(Case):
                 ("demo", "--ticks", 1, "--record"), ("bench", "accuracy", "--rows", 3, "--page"),
                 ("bench", "accuracy", "--plot"), ("bench", "stability", "--rows", "stack-10", "--page"),
                 ("bench", "speed", "--csv"), ("bench", "speed", "--instructions"),
+                ("bench", "speed", "--islands", "--page"), ("bench", "speed", "--islands", "--chart"),
                 ("asset", "build", MODELS / "cube.obj", "-o")]
 
     def refuse(self, command, path):

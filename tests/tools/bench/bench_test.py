@@ -112,6 +112,28 @@ class Speed(Case):
         self.expect(USAGE, "speed", "--scene", "nothing")
         self.expect(USAGE, "speed", "--ticks", 0)
 
+    def test_stands_beside_other_engines(self):
+        """Ours first; the others are absent from most builds."""
+        run = ("speed", "--ticks", 3, "--repeats", 1, "--peers", "--islands", "--most", 100)
+        report = self.json_of(*run, "--scene", "ball-rain", "--scene", "storm")
+        rain, storm = report["scenes"]
+        self.assertEqual((rain["bodies"], rain["ticks"]), (4800, 3))
+        self.assertIn("queries", storm["lacking"])
+        self.assertEqual([row["scene"] for row in report["islands"]], ["stacks", "piles", "ragdolls"])
+        for row in [rain] + report["islands"]:
+            ours = row["engines"][0]
+            self.assertEqual((ours["engine"], ours["ours_to_it"], ours["had_room"]), ("lockstone", 1, True))
+            for engine in row["engines"]:
+                self.assertAlmostEqual(engine["height_m"], ours["height_m"], delta=0.1)
+        self.expect(USAGE, "speed", "--peers", "nobody")
+        self.expect(USAGE, "speed", "--vectors", "nothing")
+
+    def test_draws_the_ratios_of_islands(self):
+        with tempfile.TemporaryDirectory() as folder:
+            chart = pathlib.Path(folder) / "chart.svg"
+            self.expect(OK, "speed", "--islands", "--most", 100, "--ticks", 1, "--chart", chart)
+            self.assertIn("ragdolls: ten bodies", chart.read_text())
+
     def test_compares_with_counts_alone(self):
         self.expect(CORRUPT, "speed", "--compare", __file__)
 
@@ -196,6 +218,8 @@ class Pages(Case):
     def test_the_command_on_a_page_writes_it_again(self):
         runs = {"page.md": ("stability", "--rows", "stack-10", "--seconds", 1, "--page"),
                 "accuracy.md": ("accuracy", "--rows", 3, "--tries", 2, "--page"),
+                "speed.md": ("speed", "--scene", "ball-rain", "--ticks", 2, "--repeats", 1, "--peers", "--islands",
+                             "--most", 100, "--vectors", "scalar", "--page"),
                 "general.md": ("general", "--alone", "--family", "arch", "--seeds", 1, "--substeps", 2, "--page"),
                 "front": ("accuracy", "--scenes", "throw", "--settings", 1, "--repeats", 1, "--alone", "--plot")}
         with tempfile.TemporaryDirectory() as folder:

@@ -6,8 +6,11 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/kernels/target.h"
 #include "tools/bench/support/measure.h"
+#include "tools/lockstone/bench/bench_beside.h"
 #include "tools/lockstone/bench/print/bench_instructions.h"
 #include "tools/lockstone/bench/print/bench_speed_print.h"
 #include "tools/lockstone/commands.h"
@@ -32,6 +35,8 @@ struct BenchSpeedOptions {
   std::string instructions;  // a file to write; empty: times instead
   std::string compare;       // a file that `instructions` wrote
   bool force = false;
+  std::string vectors;  // empty: the widest
+  BesideRequest beside;
 };
 
 // Empty when a name is unknown.
@@ -58,13 +63,17 @@ std::vector<std::uint32_t> threads_of(const BenchSpeedOptions& options) {
   return {1, all};
 }
 
+int repeats_of(const BenchSpeedOptions& options) {
+  return options.repeats != 0 ? options.repeats : options.quick ? 1 : 3;
+}
+
 bench::SpeedOptions measure_of(const BenchSpeedOptions& options, const bench::SpeedScene& scene) {
   bench::SpeedOptions measure;
   measure.detail = options.detail;
   measure.threads = threads_of(options);
   measure.broad_phase = options.broad_phase;
   if (options.cpu) measure.clock = bench::thread_nanoseconds;
-  measure.repeats = options.repeats != 0 ? options.repeats : options.quick ? 1 : 3;
+  measure.repeats = repeats_of(options);
   measure.ticks = options.ticks;
   if (options.ticks == 0 && options.quick) measure.ticks = std::max(scene.ticks / 5, 1U);
   return measure;
@@ -105,6 +114,19 @@ int verdict(const SpeedReport& report) {
   return code;
 }
 
+int run_beside(const BenchSpeedOptions& options,
+               const std::vector<const bench::SpeedScene*>& scenes) {
+  BesideRequest request = options.beside;
+  request.only = options.scenes;
+  request.ticks = options.ticks;
+  request.repeats = repeats_of(options);
+  request.cpu = options.cpu;
+  request.json = options.json;
+  request.force = options.force;
+  request.vectors = options.vectors;
+  return bench_beside(request, scenes);
+}
+
 int run(const BenchSpeedOptions& options, bool list) {
   const std::vector<const bench::SpeedScene*> scenes = chosen_scenes(options.scenes);
   if (scenes.empty()) return k_usage;
@@ -112,6 +134,12 @@ int run(const BenchSpeedOptions& options, bool list) {
     list_scenes(scenes);
     return k_ok;
   }
+  if (!options.vectors.empty() && lanes::set_target(options.vectors) != Status::ok) {
+    complain(fmt::format("no vectors {} here; there are {}", options.vectors,
+                         fmt::join(lanes::supported_targets(), ", ")));
+    return k_usage;
+  }
+  if (options.beside.wanted()) return run_beside(options, scenes);
   const Output csv{options.csv, options.force}, counts{options.instructions, options.force};
   if (!may_write(csv) || !may_write(counts)) return k_unavailable;
   if (!options.compare.empty()) return compare_instructions(options.compare);
@@ -138,6 +166,7 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
                    "Numbers of threads to compare (1 and all; with --cpu 1)")
       ->check(CLI::Range(1U, k_max_workers));
   add_broad_phase_option(*command, options->broad_phase);
+  command->add_option("--vectors", options->vectors, "Use these instead of the widest: avx2, say");
   command->add_flag("--cpu", options->cpu,
                     "Count only the time that the stepping thread itself ran");
   command->add_flag("--quick", options->quick, "Run a fifth of the ticks, once");
@@ -150,6 +179,7 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
   command->add_option("--compare", options->compare,
                       "Instead: count the scenes of such a file again; exit code 1 above 2 % more");
   add_force_option(*command, options->force);
+  add_beside_options(*command, options->beside);
   command->callback([options, list, &exit_code] { exit_code = run(*options, *list); });
 }
 
