@@ -78,6 +78,7 @@ void add_stack_families(std::vector<Family>& all);
 void add_wall_families(std::vector<Family>& all);
 void add_friction_families(std::vector<Family>& all);
 void add_impact_families(std::vector<Family>& all);
+void add_handling_families(std::vector<Family>& all);
 void add_motion_families(std::vector<Family>& all);
 void add_rest_families(std::vector<Family>& all);
 void add_machine_families(std::vector<Family>& all);

@@ -91,6 +91,7 @@ const std::vector<Family>& families() {
     add_wall_families(list);
     add_friction_families(list);
     add_impact_families(list);
+    add_handling_families(list);
     add_motion_families(list);
     add_rest_families(list);
     add_machine_families(list);

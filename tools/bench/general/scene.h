@@ -112,6 +112,8 @@ enum class Judge {
   missed,        ///< share of watched bodies that ended within `expected` m of where they began
   entered,       ///< share of watched bodies that no trigger saw
   fallen,        ///< m, the deepest that a watched body ends below the floor
+  sunk,          ///< m, the deepest that any point of a watched body ever is below the floor
+  fastest,       ///< m/s, of any body at any time
   bounce,        ///< m, the highest that a watched body rises above its beginning
   slowed,        ///< speed lost at the end, relative to the beginning, beyond `expected`
   awake,         ///< share of dynamic bodies not asleep at the end

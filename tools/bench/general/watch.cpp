@@ -46,6 +46,21 @@ double gap_of(const GeneralJoint& joint, const GeneralState& a, const GeneralSta
   return norm(apart - dot(apart, axis) * axis);
 }
 
+double lowest_point(const GeneralBody& body, const GeneralState& state) {
+  const auto rise = [&](const Triple& way) { return turned(state.orientation, way)[1]; };
+  const double height = state.position[1];
+  if (body.form == Form::sphere) return height - body.size[0];
+  if (body.form == Form::capsule)
+    return height - std::abs(rise({0, body.size[1], 0})) - body.size[0];
+  if (body.form == Form::box)
+    return height - std::abs(rise({body.size[0], 0, 0})) - std::abs(rise({0, body.size[1], 0})) -
+           std::abs(rise({0, 0, body.size[2]}));
+  double low = 0;
+  for (const Triple& point : body.points)
+    low = std::min(low, rise(point));
+  return height + low;
+}
+
 double speed_of(const GeneralJoint& joint, const GeneralState& a, const GeneralState& b) {
   return dot(b.angular_velocity - a.angular_velocity,
              turned(a.orientation * joint.frame_a, {1, 0, 0}));
@@ -120,6 +135,7 @@ class Watch {
       const auto i = static_cast<std::size_t>(body);
       raise(farthest_, norm(now_[i].position - begin_[i].position));
       raise(highest_, now_[i].position[1] - begin_[i].position[1]);
+      raise(deepest_, scene_.low - lowest_point(scene_.bodies[i], now_[i]));
       if (scene_.judge == Judge::entered && engine_.entered(body)) seen_[i] = true;
     }
   }
@@ -209,6 +225,10 @@ class Watch {
         return share([&](int body) { return !seen_[static_cast<std::size_t>(body)]; });
       case Judge::fallen:
         return most([&](int body) { return scene_.low - at(body).position[1]; });
+      case Judge::sunk:
+        return deepest_;
+      case Judge::fastest:
+        return figures_.speed;
       case Judge::bounce:
         return highest_;
       case Judge::slowed:
@@ -228,7 +248,7 @@ class Watch {
   std::vector<bool> seen_;
   GeneralFigures figures_;
   bool judges_energy_ = false;
-  double first_ = 0, lowest_ = 0, farthest_ = 0, highest_ = 0, off_ = 0;
+  double first_ = 0, lowest_ = 0, farthest_ = 0, highest_ = 0, deepest_ = 0, off_ = 0;
 };
 
 void move(GeneralEngine& engine, const GeneralScene& scene, int tick) {
