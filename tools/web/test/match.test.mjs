@@ -11,7 +11,7 @@ const ticks = long ? 3600 : 600;
 const emulated = Boolean(process.env.LOCKSTONE_EMULATED);
 const skip = !chromium ? "Chromium is not installed" : hostsBrowsers() ? false : "no native command with --ws";
 
-// A tab of a busy machine may be silent for long, and is not to be dropped for it.
+// A tab of a busy machine may be silent for long, and is not to be dropped for it; nor is the server by the tab.
 const patience = ["--drop-after", "60"];
 const address = (match, slot, more = "") => `/test/match.html?url=${encodeURIComponent(match.url)}&seed=1&name=tab` +
   `&token=${encodeURIComponent(match.backend.tokenText(slot))}${more}`;
