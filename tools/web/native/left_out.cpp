@@ -57,7 +57,7 @@ bool has_room_for(const WorldData&, const SetMeshGroup&) {
 bool has_group(const WorldData&, const SetMeshGroup&) {
   return false;
 }
-const Asset* asset_of(const World&, BodyHandle) {
+const geometry::AssetGeometry* geometry_of(const World&, BodyHandle) {
   return nullptr;
 }
 
