@@ -18,8 +18,8 @@
 #   --bindings   also test the bindings of Rust and C#, whose compilers are installed. Without it they are
 #                tested where the compilers are there already
 #   --werror     compiler warnings are errors
-#   --unity      compile the libraries in batches of files: a build from nothing takes two thirds of the
-#                time, a build after an edit takes longer
+#   --unity      compile net, replay and tool in batches of files: a build from nothing takes less time,
+#                a build after an edit more. Core is not: programs link single files of it
 #   --help       print this
 #
 # Missing Debian packages are installed first (as root or through sudo). LOCKSTONE_JOBS bounds the
@@ -129,7 +129,7 @@ while (($#)); do
       if [[ ${1-} =~ ^[0-9]+$ ]]; then explore_seconds=$1 && shift; fi ;;
     --bindings) bindings=true ;;
     --werror) options+=(-DLOCKSTONE_WARNINGS_AS_ERRORS=ON) ;;
-    --unity) options+=(-DLOCKSTONE_UNITY_BUILD=ON) ;;
+    --unity) options+=(-DLOCKSTONE_UNITY_BUILD=SESSION) ;;
     --help) usage; exit ;;
     *) usage >&2; exit 2 ;;
   esac

@@ -9,6 +9,7 @@
 namespace lockstone::lanes {
 namespace {
 
+#if !defined(LKS_VECTORS_ALONE)
 constexpr Kernels k_scalar{"scalar",
                            1,
                            compute_rotations_scalar,
@@ -19,6 +20,7 @@ constexpr Kernels k_scalar{"scalar",
                            &k_scalar_balls,
                            &k_scalar_boxes,
                            &k_scalar_proximal};
+#endif
 
 #if defined(LOCKSTONE_WITH_HIGHWAY) && defined(__x86_64__)
 constexpr std::array<std::string_view, 3> k_candidates = {"sse4", "avx2", "avx512"};
@@ -42,19 +44,26 @@ bool processor_has(std::string_view) {
 #endif
 
 struct Supported {
-  std::array<const Kernels*, 4> kernels{&k_scalar};
-  std::array<std::string_view, 4> names{k_scalar.target};
-  std::size_t count = 1;
+  std::array<const Kernels*, 4> kernels{};
+  std::array<std::string_view, 4> names{};
+  std::size_t count = 0;
 
   Supported() {
+#if !defined(LKS_VECTORS_ALONE)
+    add(k_scalar);
+#endif
 #if defined(LOCKSTONE_WITH_HIGHWAY)
     for (const std::string_view name : k_candidates) {
       const Kernels* found = highway_kernels(name);
-      if (found == nullptr || !processor_has(name)) continue;
-      names[count] = name;
-      kernels[count++] = found;
+      if (found != nullptr && processor_has(name)) add(*found);
     }
 #endif
+  }
+
+ private:
+  void add(const Kernels& found) {
+    names[count] = found.target;
+    kernels[count++] = &found;
   }
 };
 

@@ -12,7 +12,7 @@ TEST(FuzzRollbacks, OfARandomSeedGiveTheStatesOfAFullSimulation) {
   RollbackFuzzOptions options;
   options.seed = test::run_seed();
   options.count = test::share_of(std::uint64_t{16});
-  options.rounds = 20;
+  options.rounds = test::share_of(20U);
   const RollbackFuzzReport report = fuzz_rollbacks(options);
   EXPECT_EQ(report.worlds, options.count);
   EXPECT_GT(report.recalled_islands, 0U);

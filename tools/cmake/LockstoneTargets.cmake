@@ -13,12 +13,18 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_G
   target_compile_options(lockstone_options INTERFACE -fno-ipa-modref)
 endif()
 
-# lockstone_unite_sources(TARGET): where LOCKSTONE_UNITY_BUILD is on, up to twenty files of one part
+# lockstone_unite_sources(TARGET): where LOCKSTONE_UNITY_BUILD says so, up to twenty files of one part
 # (core/dynamics, net/session, …) are compiled at once: the headers of one unit take a second.
 # Elsewhere they are compiled one by one, whatever CMAKE_UNITY_BUILD says.
 function(lockstone_unite_sources target)
-  set_target_properties(${target} PROPERTIES
-    UNITY_BUILD ${LOCKSTONE_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
+  set(unite ${LOCKSTONE_UNITY_BUILD})
+  if(unite STREQUAL "SESSION")
+    set(unite ON)
+    if(target STREQUAL "lockstone_core")
+      set(unite OFF)
+    endif()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${unite} UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   set(folders)
   foreach(source IN LISTS sources)

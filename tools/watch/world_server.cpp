@@ -1,8 +1,8 @@
 #include <lockstone/watch/world_server.h>
 
 #include <algorithm>
-#include <random>
 
+#include "tools/watch/random_token.h"
 #include "tools/watch/world_description.h"
 
 namespace lockstone::watch {
@@ -11,7 +11,6 @@ using namespace net;
 
 namespace {
 
-constexpr std::size_t k_token_bytes = 16;
 constexpr std::size_t k_most_viewers = 8;
 // More than one state never waits for a viewer; the largest world has about 1 GB.
 constexpr std::size_t k_most_waiting_bytes = std::size_t{1} << 31;
@@ -19,15 +18,6 @@ constexpr std::size_t k_most_waiting_bytes = std::size_t{1} << 31;
 constexpr std::int64_t k_idle_us = 3'600'000'000;
 // Bytes that one call hands to the system in pieces, before the game goes on.
 constexpr int k_flushes = 16;
-
-std::string random_token() {
-  constexpr char k_digits[] = "0123456789abcdef";
-  std::random_device random;
-  std::string token;
-  for (std::size_t i = 0; i < 2 * k_token_bytes; ++i)
-    token += k_digits[random() & 15U];
-  return token;
-}
 
 bool is_token(ByteView bytes, const std::string& token) {
   if (bytes.size() != token.size()) return false;

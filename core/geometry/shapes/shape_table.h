@@ -13,7 +13,7 @@
 
 // The address of a row that is not linked is null. Where the linker has no such symbols, every row
 // is linked.
-#if defined(__ELF__) && !defined(LKS_LINKS_ALL_ROWS)
+#if (defined(__ELF__) || defined(__wasm__)) && !defined(LKS_LINKS_ALL_ROWS)
 #define LKS_LATER_ROW __attribute__((weak))
 #else
 #define LKS_LATER_ROW

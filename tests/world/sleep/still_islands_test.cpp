@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 #include "tests/world/joints/joint_fixture.h"
 #include "tests/world/random_commands.h"
 #include "tests/world/sleep/sleepers.h"
@@ -236,7 +237,7 @@ TEST(StillIslands, MoveAfterAnyCommandAsIfTheyHadNeverBeenStill) {
 // In each tick a copy is solved whole.
 TEST(StillIslands, TakeEachStepAsSolvedOnesDoUnderManyCommands) {
   std::uint32_t still_bodies = 0;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::share_of(std::uint64_t{24}); ++seed) {
     World still = make_still_yard(), solved = make_sleepless_world();
     test::Random random(seed);
     test::CommandDice dice(still, random, false);
@@ -251,7 +252,7 @@ TEST(StillIslands, TakeEachStepAsSolvedOnesDoUnderManyCommands) {
       ASSERT_LT(velocity_difference(still, solved), 1e-3) << "seed " << seed << ", tick " << tick;
     }
   }
-  EXPECT_GT(still_bodies, 1000U);
+  EXPECT_GT(still_bodies, test::share_of(1000U));
 }
 
 }  // namespace

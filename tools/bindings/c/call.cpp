@@ -3,6 +3,22 @@
 #include <algorithm>
 
 namespace lockstone::c {
+
+void throw_null(std::string_view name) {
+  throw Failure{LKS_NULL_ARGUMENT, std::string(name) + " is null"};
+}
+
+void throw_wrong_size(std::string_view name, std::size_t size, std::size_t least,
+                      std::size_t most) {
+  throw Failure{LKS_WRONG_SIZE, std::string(name) + ".size: " + std::to_string(size) +
+                                    ", must be " + std::to_string(least) + " … " +
+                                    std::to_string(most)};
+}
+
+void throw_number(std::string_view field, std::uint32_t number, std::string_view fault) {
+  throw invalid(field, std::to_string(number) + ' ' + std::string(fault));
+}
+
 Failure failure(Status status, const Refusal& refusal) {
   return {static_cast<lks_status>(status),
           refusal ? refusal.to_line() : std::string(to_string(status))};

@@ -5,11 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <exception>
 #include <limits>
-#include <new>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <lockstone/refusal.h>
 #include <lockstone/status.h>
@@ -30,35 +29,35 @@ struct Failure {
 /// Keeps the message for lks_last_error, cut to its room between two characters.
 lks_status remember(lks_status status, std::string_view message) noexcept;
 
-/// Runs the body of a function of the interface.
+/// Runs the function; its exception becomes a status and a message.
+lks_status call_guarded(void (*function)(void* body), void* body) noexcept;
+
+/// Runs the body of a function of the interface. The exceptions are caught in one place, or each of
+/// the many functions would have code for them.
 template <class Body>
 lks_status call(Body&& body) noexcept {
-  try {
-    body();
-    return LKS_OK;
-  } catch (const Failure& failure) {
-    return remember(failure.status, failure.message);
-  } catch (const std::bad_alloc&) {
-    return remember(LKS_OUT_OF_MEMORY, "not enough memory");
-  } catch (const std::exception& error) {
-    return remember(LKS_INTERNAL, error.what());
-  } catch (...) {
-    return remember(LKS_INTERNAL, "unknown exception");
-  }
+  return call_guarded([](void* of) { (*static_cast<std::remove_reference_t<Body>*>(of))(); },
+                      &body);
 }
+
+/// They throw; functions, because many places do.
+[[noreturn]] void throw_null(std::string_view name);
+[[noreturn]] void throw_wrong_size(std::string_view name, std::size_t size, std::size_t least,
+                                   std::size_t most);
+[[noreturn]] void throw_number(std::string_view field, std::uint32_t number,
+                               std::string_view fault);
 
 /// The object that the pointer points to; throws for null.
 template <class T>
 T& required(T* pointer, std::string_view name) {
-  if (pointer == nullptr) throw Failure{LKS_NULL_ARGUMENT, std::string(name) + " is null"};
+  if (pointer == nullptr) throw_null(name);
   return *pointer;
 }
 
 /// Of an array: null is right for no elements.
 template <class T>
 T* array(T* pointer, std::size_t count, std::string_view name) {
-  if (count > 0 && pointer == nullptr)
-    throw Failure{LKS_NULL_ARGUMENT, std::string(name) + " is null"};
+  if (count > 0 && pointer == nullptr) throw_null(name);
   return pointer;
 }
 
@@ -73,15 +72,14 @@ T value_of(Result<T>&& result) {
 template <class Enum>
 Enum enumerator(std::uint32_t number, Enum first, Enum last, std::string_view field) {
   if (number < static_cast<std::uint32_t>(first) || number > static_cast<std::uint32_t>(last))
-    throw invalid(field, std::to_string(number) + " is no such value");
+    throw_number(field, number, "is no such value");
   return static_cast<Enum>(number);
 }
 
 /// The number in a narrower type; throws where it does not fit.
 template <class T>
 T narrow(std::uint32_t number, std::string_view field) {
-  if (number > std::numeric_limits<T>::max())
-    throw invalid(field, std::to_string(number) + " is out of range");
+  if (number > std::numeric_limits<T>::max()) throw_number(field, number, "is out of range");
   return static_cast<T>(number);
 }
 
@@ -98,9 +96,7 @@ inline constexpr std::size_t k_first_size = sizeof(T);
 template <class T>
 void check_size(std::size_t size, std::string_view name) {
   if (size >= k_first_size<T> && size <= sizeof(T) && size % 8 == 0) return;
-  throw Failure{LKS_WRONG_SIZE, std::string(name) + ".size: " + std::to_string(size) +
-                                    ", must be " + std::to_string(k_first_size<T>) + " … " +
-                                    std::to_string(sizeof(T))};
+  throw_wrong_size(name, size, k_first_size<T>, sizeof(T));
 }
 
 /// A structure from the caller: the fields that it does not know have their defaults.

@@ -110,11 +110,6 @@ StepReport step(lks_world& world) {
   return world.scene->last_report();
 }
 
-const std::vector<scenes::SceneSummary>& all_scenes() {
-  static const std::vector<scenes::SceneSummary> list = scenes::list_scenes();
-  return list;
-}
-
 void set_runner(lks_world& world, TaskRunner* runner) {
   if (world.scene)
     world.scene->set_task_runner(runner, TaskPieces::worthwhile);
@@ -139,25 +134,6 @@ lks_status lks_world_create(const lks_world_def* def, const lks_assets* assets, 
     world->own = value_of(World::create(world_def_of(def), set_of(assets)));
     *out = world.release();
   });
-}
-
-lks_status lks_world_create_scene(const char* name, uint64_t seed, lks_world** out) {
-  return call([&] {
-    required(out, "out");
-    auto scene = scenes::make_play(&required(name, "name"), seed);
-    if (!scene.ok()) throw Failure{LKS_NOT_FOUND, std::string("no scene is called ") + name};
-    auto world = std::make_unique<lks_world>();
-    world->scene = std::move(scene).value();
-    *out = world.release();
-  });
-}
-
-uint32_t lks_scene_count(void) {
-  return static_cast<uint32_t>(all_scenes().size());
-}
-
-const char* lks_scene_name(uint32_t index) {
-  return index < all_scenes().size() ? all_scenes()[index].name.data() : nullptr;
 }
 
 void lks_world_destroy(lks_world* world) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <random>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/interrupt.h"
+#include "tools/watch/random_token.h"
 
 namespace lockstone::tool {
 
@@ -27,14 +27,6 @@ std::string policy_with(std::string_view origin) {
   return policy.append(origin);
 }
 
-std::string random_token() {
-  std::random_device random;
-  std::string token;
-  for (int i = 0; i < 4; ++i)
-    token += fmt::format("{:08x}", static_cast<std::uint32_t>(random()));
-  return token;
-}
-
 /// The answer that is being sent to one browser's request.
 struct Sending {
   const ServedFile* file;
@@ -45,7 +37,7 @@ struct Sending {
 
 struct PageServer::Parts {
   ServedFiles files;
-  std::string token = random_token();
+  std::string token = watch::random_token();
   std::string host;  // as a browser must name it
   std::string address;
   std::string policy;

@@ -155,7 +155,7 @@ LKS_API lks_status lks_studio_log_keyframe(const lks_studio_log* log, uint32_t i
                                            lks_world* world);
 
 /* Steps the world with the log's inputs of its tick; `same` says whether it comes to the recorded
- * hash. LKS_NOT_FOUND beyond the log. */
+ * hash; null: not asked. LKS_NOT_FOUND beyond the log. */
 LKS_API lks_status lks_studio_log_step(const lks_studio_log* log, lks_world* world, uint32_t* same);
 
 #ifdef __cplusplus

@@ -9,6 +9,7 @@ export const Proof = { unknown: 0, same: 1, different: 2 } as const;
 const KEEP_EVERY = 15; // ticks
 const MOST_BYTES = 512e6;
 const CHEAP_TICKS = 60; // that are computed while a finger moves
+const FIRST_MS = 25; // of computing before the first picture of a tick that is sought
 
 /** Verdicts on each tick of a log. */
 export class Proofs {
@@ -74,15 +75,13 @@ export class LogStage extends Stage {
     return tick - near > CHEAP_TICKS ? near : tick;
   }
 
-  /** Goes to a tick, or where that takes long, to the nearest known state before it: `work` goes on. */
+  /** Goes to the nearest known state before a tick, and on towards it: `work` does the rest. */
   approach(tick: number): void {
     const wanted = Math.min(Math.max(tick, this.first), this.last);
     const from = this.nearest(wanted);
-    this.goal = null;
-    if (wanted - Math.max(from.tick, this.tick <= wanted ? this.tick : 0) < KEEP_EVERY) return this.seek(wanted);
-    this.goal = wanted;
     if (this.tick > wanted || from.tick > this.tick) from.load();
-    this.view.reset();
+    this.goal = wanted;
+    this.work(FIRST_MS);
   }
 
   /** Computes towards the goal for a part of a frame. */
@@ -105,8 +104,13 @@ export class LogStage extends Stage {
       this.states.load(this.anchor.state);
       return;
     }
-    const same = this.log.step(this.world);
-    if (!this.anchor) this.proofs.mark(tick, same);
+    // A tick that is proved already comes from a state that is proved: its hash is known.
+    if (!this.anchor && this.proofs.of(tick) === Proof.same) {
+      this.log.stepUnseen(this.world);
+    } else {
+      const same = this.log.step(this.world);
+      if (!this.anchor) this.proofs.mark(tick, same);
+    }
     if (this.history.wants(tick + 1)) this.history.put(tick + 1, this.states.save());
   }
 

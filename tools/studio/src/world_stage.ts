@@ -1,28 +1,17 @@
 // The world of a game that runs elsewhere: each of its states replaces the one before.
 import { LKS_CANONICAL } from "../../web/src/declarations.js";
+import { ElsewhereStage } from "./elsewhere_stage.js";
 import type { Engine } from "./engine.js";
 import { States } from "./history.js";
-import { Stage } from "./stage.js";
 
-export class WorldStage extends Stage {
+export class WorldStage extends ElsewhereStage {
   private readonly states: States;
-  private movedAt = performance.now();
-  private intervalMs = 1000 / 60;
+  protected intervalMs = 1000 / 60;
 
   /** `description`: the message of a WorldServer. */
   constructor(engine: Engine, description: Uint8Array) {
     super(engine, engine.describedWorld(description));
     this.states = new States(this.world, LKS_CANONICAL);
-  }
-
-  override get canStep(): boolean {
-    return false;
-  }
-  get first(): number {
-    return this.tick;
-  }
-  get last(): number {
-    return this.tick;
   }
 
   /** Takes over a state, as its canonical snapshot. */
@@ -35,12 +24,4 @@ export class WorldStage extends Stage {
     this.intervalMs = Math.min(Math.max(now - this.movedAt, 1), 250);
     this.movedAt = now;
   }
-
-  /** Of the way from the last state but one to the last one. */
-  get fraction(): number {
-    return Math.min((performance.now() - this.movedAt) / this.intervalMs, 1);
-  }
-
-  protected advance(): void {}
-  protected goTo(): void {}
 }

@@ -6,6 +6,7 @@
 #include <lockstone/testing/floating.h>
 #include <lockstone/world.h>
 
+#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/polytope_box.h"
 #include "core/geometry/convex/rounded_facets.h"

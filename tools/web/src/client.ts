@@ -23,6 +23,8 @@ export interface ClientOptions {
   rejoinKey?: bigint;
   /** ms: how long a lost connection is called again. 30,000; 0: never. */
   reconnectMs?: number;
+  /** ms: so long the server may be silent before it counts as lost. 5,000. */
+  dropMs?: number;
   /** Instead of the global one, which Node has from version 22 on. */
   WebSocket?: WebSocketClass;
 }
@@ -89,6 +91,7 @@ function putDefinition(heap: Heap, options: ClientOptions): number {
   heap.putWord(at + def.insecure, options.token === undefined ? 1 : 0);
   if (slot !== undefined) heap.putWord(at + def.wanted_slot, slot);
   if (options.predictionTicks !== undefined) heap.putWord(at + def.prediction_ticks, options.predictionTicks);
+  if (options.dropMs !== undefined) heap.i64[(at + def.drop_us) >>> 3] = BigInt(Math.round(1000 * options.dropMs));
   if (options.rejoinKey !== undefined) heap.u64[(at + def.rejoin_key) >>> 3] = options.rejoinKey;
   new TextEncoder().encodeInto(options.name ?? "browser", heap.u8.subarray(at + def.name, at + def.name + NAME_BYTES));
   return at;

@@ -4,8 +4,13 @@ import { hex } from "./units.js";
 import { World } from "./world.js";
 
 export * from "./index.js";
+export { Assets, assetShape, roundedBox, taperedCapsule } from "./shapes.js";
+export { describeDifference } from "./state.js";
 
-/** As `load`, with the built-in scenes: a larger file. */
+/**
+ * As `load`, but everything that a world may have: assets, rounded boxes and tapered capsules, fluids, vehicles,
+ * ragdolls and changes of terrain too, and the built-in scenes: a larger file.
+ */
 export function loadFull(options: LoadOptions = {}): Promise<Lockstone> {
   return loadFrom(options, () => new URL("./lockstone-full.wasm", import.meta.url),
     () => new URL("./lockstone-full-simd.wasm", import.meta.url));

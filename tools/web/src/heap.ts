@@ -58,6 +58,11 @@ export class Heap {
     return address;
   }
 
+  /** Throws where the module lacks the function: that of `load` has fewer than that of `loadFull`. */
+  needs(name: keyof Functions): void {
+    if (!(name in this.f)) throw new Error(`Lockstone: ${name} needs the module of loadFull() (lockstone/full)`);
+  }
+
   /** Throws where a status is not LKS_OK. */
   check(status: number): void {
     if (status !== 0) {

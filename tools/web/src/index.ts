@@ -22,12 +22,9 @@ export {
   overlapSphere,
 } from "./queries.js";
 export {
-  Assets, type Shape, assetShape, box, capsule, cone, cylinder, halfSpace, roundedBox, sphere,
-  taperedCapsule,
+  type Assets, type Shape, box, capsule, cone, cylinder, halfSpace, sphere,
 } from "./shapes.js";
-export {
-  type PartHashes, Snapshot, describeDifference, loadState, partHashes, saveState,
-} from "./state.js";
+export { type PartHashes, Snapshot, loadState, partHashes, saveState } from "./state.js";
 export { type Numbers3, type Numbers4, type Quantity, type Rotation, type Vector, hex } from "./units.js";
 export { View, type ViewOptions } from "./view.js";
 export { type Poses, type StepReport, World, type WorldDef, configHash } from "./world.js";

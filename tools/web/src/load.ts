@@ -50,7 +50,10 @@ export function hasSimd(): boolean {
   return WebAssembly.validate(new Uint8Array(bytes));
 }
 
-/** Loads the library: worlds, commands, queries, events, snapshots. */
+/**
+ * Loads the library: worlds of spheres, capsules, boxes, cylinders, cones and half-spaces, joints, queries, events,
+ * snapshots. `loadFull` of `lockstone/full` has the rest.
+ */
 export function load(options: LoadOptions = {}): Promise<Lockstone> {
   return loadFrom(options, () => new URL("./lockstone.wasm", import.meta.url),
     () => new URL("./lockstone-simd.wasm", import.meta.url));

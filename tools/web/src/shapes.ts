@@ -38,12 +38,12 @@ export function cone(height: Quantity, radius: Quantity): Shape {
   return shape(c.LKS_CONE, radius, height);
 }
 
-/** The hull of two balls along y, whose centres are the height apart. */
+/** The hull of two balls along y, whose centres are the height apart. Needs the module of `loadFull`. */
 export function taperedCapsule(height: Quantity, bottomRadius: Quantity, topRadius: Quantity): Shape {
   return shape(c.LKS_TAPERED_CAPSULE, bottomRadius, height, topRadius);
 }
 
-/** A box of these half extents, and all within the radius of it. */
+/** A box of these half extents, and all within the radius of it. Needs the module of `loadFull`. */
 export function roundedBox(halfX: Quantity, halfY: Quantity, halfZ: Quantity, radius: Quantity): Shape {
   return shape(c.LKS_ROUNDED_BOX, halfX, halfY, halfZ, BigInt(raw32(radius, c.LKS_LENGTH_BITS)));
 }
@@ -75,12 +75,13 @@ export function getShape(heap: Heap, address: number): Shape {
 
 const forgotten = new FinalizationRegistry<() => void>((free) => free());
 
-/** Geometry that worlds are made with. Every peer needs the same set. */
+/** Geometry that worlds are made with. Every peer needs the same set. Needs the module of `loadFull`. */
 export class Assets {
   readonly address: number;
 
   constructor(private readonly lockstone: Lockstone) {
     const { heap } = lockstone;
+    heap.needs("lks_assets_create");
     heap.check(heap.f.lks_assets_create(heap.output));
     const address = (this.address = heap.getWord(heap.output));
     forgotten.register(this, () => heap.f.lks_assets_destroy(address));

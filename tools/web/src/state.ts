@@ -48,9 +48,13 @@ export function loadState(world: World, bytes: Uint8Array): void {
   }
 }
 
-/** The first difference between two saved states of the world, for people, or null: `body 17 "crate", velocity.y: …`. */
+/**
+ * The first difference between two saved states of the world, for people, or null: `body 17 "crate", velocity.y: …`.
+ * Needs the module of `loadFull`.
+ */
 export function describeDifference(world: World, here: Uint8Array, there: Uint8Array): string | null {
   const { heap, address } = world;
+  heap.needs("lks_describe_difference");
   const room = heap.allocate(here.length + there.length);
   const text = heap.output + 8;
   try {

@@ -11,6 +11,8 @@ const ticks = long ? 3600 : 600;
 const emulated = Boolean(process.env.LOCKSTONE_EMULATED);
 const skip = !chromium ? "Chromium is not installed" : hostsBrowsers() ? false : "no native command with --ws";
 
+// A tab of a busy machine may be silent for long, and is not to be dropped for it; nor is the server by the tab.
+const patience = ["--drop-after", "60"];
 const address = (match, slot, more = "") => `/test/match.html?url=${encodeURIComponent(match.url)}&seed=1&name=tab` +
   `&token=${encodeURIComponent(match.backend.tokenText(slot))}${more}`;
 const reached = (page, tick) => page.waitForFunction((least) => window.played?.ticks >= least, tick, { timeout: long ? 120_000 : 30_000 });
@@ -26,7 +28,7 @@ async function nativeClients(match, slots) {
 }
 
 test(`two tabs and three ${emulated ? "native clients, one of them emulated," : "native clients"} play one match, and a reloaded tab comes back`, { skip }, async () => {
-  await withMatch(["--players", "5", "--ticks", `${ticks}`, "--input-delay", "6", "--bodies", "40"], (match) => withPages(2, async (pages) => {
+  await withMatch(["--players", "5", "--ticks", `${ticks}`, "--input-delay", "6", "--bodies", "40", ...patience], (match) => withPages(2, async (pages) => {
     await Promise.all(pages.map((page, slot) => page.goto(page.origin + address(match, slot, `&predict=${6 * slot}`))));
     const clients = await nativeClients(match, emulated ? [2, 3] : [2, 3, 4]);
     if (emulated) clients.push(match.keep(new StdioClient(match.url, match.backend.tokenText(4))));
@@ -55,7 +57,7 @@ test(`two tabs and three ${emulated ? "native clients, one of them emulated," : 
 });
 
 test("a tab whose state is flipped is found and named", { skip }, async () => {
-  await withMatch(["--players", "2", "--ticks", "300", "--on-desync", "kick"], (match) => withPages(1, async ([page]) => {
+  await withMatch(["--players", "2", "--ticks", "300", "--on-desync", "kick", ...patience], (match) => withPages(1, async ([page]) => {
     await page.goto(page.origin + address(match, 0));
     const [client] = await nativeClients(match, [1]);
     await reached(page, 60);

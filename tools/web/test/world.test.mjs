@@ -1,15 +1,17 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
+import { pathToFileURL } from "node:url";
 
 import { ballAbove, folder, full, root } from "./support.mjs";
 
 const lockstone = await full.load();
+const whole = await full.loadFull();
+const c = await import(pathToFileURL(`${folder}/dist/declarations.js`));
 const { EventKind, JointKind, Motion } = full;
 
-test("the core has no scenes, the full file has them", async () => {
+test("the core has no scenes, the full file has them", () => {
   assert.equal(lockstone.heap.f.lks_world_create_scene, undefined);
-  const whole = await full.loadFull();
   assert.throws(() => full.createScene(whole, "no such scene"), { status: full.Status.notFound });
   const scene = full.createScene(whole, "stack");
   assert.throws(() => scene.bodies()[0].destroy(), { status: full.Status.readOnly });
@@ -164,7 +166,52 @@ test("joints hold, turn and break", () => {
   assert.equal(broken[0]?.userData, 8n);
 });
 
+test("the core refuses things of the full file, and states with them", () => {
+  assert.throws(() => new full.Assets(lockstone), /loadFull/);
+  const here = ballAbove(lockstone), there = ballAbove(whole);
+  assert.equal(here.world.hash, there.world.hash);
+  assert.equal(lockstone.canaryHash, whole.canaryHash);
+  const before = here.world.hash;
+  assert.throws(() => full.describeDifference(here.world, new Uint8Array(8), new Uint8Array(8)), /loadFull/);
+  for (const shape of [full.roundedBox(1, 1, 1, 0.25), full.taperedCapsule(1, 0.5, 0.25)])
+    assert.throws(() => here.world.createBody({ shape }), { status: full.Status.invalidArgument });
+  assert.equal(here.world.hash, before);
+  full.loadState(here.world, full.saveState(there.world)); // the control
+  there.world.createBody({ shape: full.roundedBox(1, 1, 1, 0.25) });
+  assert.throws(() => full.loadState(here.world, full.saveState(there.world)), full.LockstoneError);
+  const { heap } = whole;
+  const fluid = heap.allocate(c.lks_fluid.$bytes);
+  heap.check(heap.f.lks_fluid_init(fluid, c.lks_fluid.$bytes));
+  heap.i32[(fluid + c.lks_fluid.density) >>> 2] = 1000 * 2 ** c.LKS_DENSITY_BITS;
+  heap.putVector64(fluid + c.lks_fluid.extents, [5, 5, 5], c.LKS_POSITION_BITS);
+  const wet = ballAbove(whole), dry = ballAbove(lockstone);
+  heap.check(heap.f.lks_set_fluid(wet.world.address, 0, fluid));
+  heap.f.free(fluid);
+  assert.throws(() => full.loadState(dry.world, full.saveState(wet.world)), { statusName: "incompatible" });
+});
+
+test("the core and the full file compute the same", () => {
+  const hashes = [lockstone, whole].map((module) => {
+    const world = new full.World(module, { bodyCapacity: 128, jointCapacity: 8 });
+    world.createBody({ shape: full.halfSpace(), motion: Motion.static });
+    const kinds = [full.sphere("0.25"), full.box("0.3", "0.2", "0.25"), full.capsule("0.2", "0.2"), full.cylinder("0.2", "0.25"),
+      full.cone("0.5", "0.25")];
+    const bodies = Array.from({ length: 60 }, (_, i) => world.createBody({
+      shape: kinds[i % kinds.length], position: [(i * 7 % 5) / 4, 0.5 + i / 3, (i * 3 % 4) / 4], angularVelocity: [1, i / 8, 0],
+    }));
+    full.createJoint(world, { kind: JointKind.ball, a: bodies[0], b: bodies[1], frameB: { position: [0, 1, 0] } });
+    const seen = [];
+    for (let i = 0; i < 30; ++i) {
+      world.step(10);
+      seen.push(world.hash);
+    }
+    return seen;
+  });
+  assert.deepEqual(hashes[0], hashes[1]);
+});
+
 test("hulls are assets of a world", () => {
+  const lockstone = whole;
   const assets = new full.Assets(lockstone);
   const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1]);
   const cube = assets.addHull(corners);
@@ -177,6 +224,7 @@ test("hulls are assets of a world", () => {
 });
 
 test("a saved state is loaded in another world, and a snapshot in its own", () => {
+  const lockstone = whole;
   const here = ballAbove(lockstone), there = ballAbove(lockstone);
   here.world.step(50);
   const bytes = full.saveState(here.world);
@@ -259,6 +307,7 @@ test("a view shows poses between ticks", () => {
 });
 
 test("outlines have the parts and triangles of a shape", () => {
+  const lockstone = whole;
   const assets = new full.Assets(lockstone);
   const corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const hull = assets.addHull(corners);
