@@ -74,8 +74,8 @@ TEST(IslandBuilder, FindsIslandsThatAMovingBodyPressesAgainstAnother) {
 
 TEST(PinchedIslands, NeedAnotherBodyAndAnOppositePush) {
   PinchedIslands pinched(4);
-  pinched.add_moving({3, 7, k_up});
-  pinched.add_moving({3, 7, k_up});
+  pinched.add_pressing({3, 7, k_up});
+  pinched.add_pressing({3, 7, k_up});
   pinched.sort();
   EXPECT_TRUE(pinched.is_pinched({3, 8, -k_up}));
   EXPECT_FALSE(pinched.is_pinched({3, 7, -k_up}));

@@ -114,7 +114,13 @@ JPH::TwoBodyConstraint* constraint_of(const GeneralJoint& joint, JPH::Body& a, J
   def.mNormalAxis1 = f.y_a;
   def.mNormalAxis2 = f.y_b;
   set_limits(def.mLimitsMin, def.mLimitsMax, joint);
-  return def.Create(a, b);
+  if (joint.effort > 0) def.mMotorSettings.SetForceLimit(static_cast<float>(joint.effort));
+  auto* made = static_cast<JPH::SliderConstraint*>(def.Create(a, b));
+  if (joint.effort > 0) {
+    made->SetMotorState(JPH::EMotorState::Velocity);
+    made->SetTargetVelocity(static_cast<float>(joint.speed));
+  }
+  return made;
 }
 
 }  // namespace lockstone::bench::jolt
