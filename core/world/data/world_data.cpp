@@ -12,8 +12,17 @@ Position travel(Velocity v, const TimeStep& step) {
   return Position::from_raw(step.tick.times(v.raw));
 }
 
-// How far turning takes any point of the body in one tick, along each axis, at most; `reach`: the
-// farthest that a point is from the centre of mass, along each axis.
+// The way of a turning body's surface in a tick that is within its half of the contact margin.
+constexpr Length k_covered_turn = k_contact_margin * 3 / 8;
+
+// How it turns: ω·2^scale_exponent.
+Vec3<Velocity> surface_velocity_of(const WorldData& world, std::uint32_t body) {
+  const BodyRecord& record = world.bodies[body];
+  return surface_velocity(inverse_inertia(record, world.cache.rotation(body)), record.spin);
+}
+
+// How far turning takes any point of the body in one tick, along each axis, at most, beyond the way
+// that the margin covers; `reach`: the farthest that a point is from the centre of mass, likewise.
 Vec3<Position> turn_travel(const WorldData& world, std::uint32_t body,
                            const Vec3<Position>& reach) {
   const BodyRecord& record = world.bodies[body];
@@ -27,7 +36,8 @@ Vec3<Position> turn_travel(const WorldData& world, std::uint32_t body,
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const std::int64_t way =
         raw::saturating_add(by(surface[j], reach[k]), by(surface[k], reach[j]));
-    result[i] = min(Position::from_raw(way), reach[j] + reach[k]);
+    const Position beyond = Position::from_raw(way) - rounded<Position>(k_covered_turn);
+    result[i] = min(max(beyond, Position{}), reach[j] + reach[k]);
   }
   return result;
 }
@@ -88,7 +98,7 @@ Bounds WorldData::bounds_of(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
   const WorldBox box = world_box(placed(body));
   Vec3<Position> turned;
-  if (record.spin != Vec3<Velocity>{}) {
+  if (turning_speed(*this, body) > 0) {
     Vec3<Position> reach;
     for (int i = 0; i < 3; ++i)
       reach[i] = max(box.upper[i] - record.position[i], record.position[i] - box.lower[i]);
@@ -146,10 +156,19 @@ bool WorldData::is_obstacle(std::uint32_t body, std::uint32_t other) const {
          !are_exempt(body, other);
 }
 
-Vec3<Velocity> surface_velocity_of(const WorldData& world, std::uint32_t body) {
+std::int64_t turning_speed(const WorldData& world, std::uint32_t body) {
   const BodyRecord& record = world.bodies[body];
-  if (record.spin == Vec3<Velocity>{}) return {};
-  return surface_velocity(inverse_inertia(record, world.cache.rotation(body)), record.spin);
+  if (record.spin == Vec3<Velocity>{}) return 0;
+  const std::int64_t covered = std::int64_t{k_covered_turn.raw} *
+                               (1 << (Position::frac_bits - Length::frac_bits)) *
+                               world.time_step.tick_rate;
+  if (record.is_dynamic()) {  // ω is at most spin over the least moment
+    const Unit least = min(record.inertia.x, min(record.inertia.y, record.inertia.z));
+    const std::int64_t spin = sum_of_magnitudes(record.spin);
+    if (spin <= raw::multiply_shift(covered, least.raw, Unit::frac_bits)) return 0;
+  }
+  const std::int64_t speed = sum_of_magnitudes(surface_velocity_of(world, body));
+  return std::max<std::int64_t>(speed - covered, 0);
 }
 
 }  // namespace lockstone

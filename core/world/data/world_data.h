@@ -188,7 +188,8 @@ struct WorldData : FluidData, RuleTables, VehicleData, TerrainData {
   return rule != nullptr && rule->is_ignored();
 }
 
-/// How a body turns: ω·2^scale_exponent.
-[[nodiscard]] Vec3<Velocity> surface_velocity_of(const WorldData& world, std::uint32_t body);
+/// The speed that turning gives to any point of a body, at most, m/s, Q32, less the speed that the
+/// contact margin covers: 0 of most bodies.
+[[nodiscard]] std::int64_t turning_speed(const WorldData& world, std::uint32_t body);
 
 }  // namespace lockstone

@@ -48,8 +48,7 @@ Length margin_of(const WorldData& world, const Pair& pair) {
                            Length::from_raw(1 << k_reach_bits));
   const Length thickness = max(thickness_of(world, pair.a), thickness_of(world, pair.b));
   const Length turn =
-      way_in_tick(world.time_step, sum_of_magnitudes(surface_velocity_of(world, pair.a)) +
-                                       sum_of_magnitudes(surface_velocity_of(world, pair.b)));
+      way_in_tick(world.time_step, turning_speed(world, pair.a) + turning_speed(world, pair.b));
   return k_contact_margin +
          min(min(reach, thickness) + min(turn, k_max_speculation), k_max_speculation);
 }
