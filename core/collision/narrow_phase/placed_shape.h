@@ -15,8 +15,8 @@ namespace lockstone {
 /// The shape's frame in the world, and the centre of mass that contact anchors are relative to.
 struct PlacedShape {
   Shape shape{};
-  const geometry::AssetGeometry* asset =
-      nullptr;              ///< null for shapes that are complete in themselves
+  /// Null for shapes that are complete in themselves.
+  const geometry::AssetGeometry* asset = nullptr;
   Vec3<Position> origin{};  ///< of the shape's frame
   Mat3 rotation{};          ///< of the shape's frame
   Vec3<Position> centre{};  ///< of mass; of a shape without mass its origin

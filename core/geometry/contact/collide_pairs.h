@@ -43,8 +43,8 @@ void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>&
 [[nodiscard]] bool is_of_second_face(std::uint32_t feature);
 
 /// Of the deepest features of B, up to four points: a sphere's pole, the poles of a capsule's ends
-/// within the margin (features 0 and 1), and of a box or polytope the vertices of the face that is turned most
-/// towards the plane, of those around the deepest vertex (features: vertices).
+/// within the margin (features 0 and 1), and of a box or polytope the vertices of the face that is
+/// turned most towards the plane, of those around the deepest vertex (features: vertices).
 [[nodiscard]] Manifold collide_half_space(const PosedShape& half_space, const PosedShape& b,
                                           const Vec3<Length>& offset, Length margin);
 

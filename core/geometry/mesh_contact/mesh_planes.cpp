@@ -230,6 +230,8 @@ class FacingVertices {
  public:
   FacingVertices(const MeshContactFrame& frame, const Vec3<Unit>& normal) : frame_(frame) {
     find_feature(frame.shape, -normal, feature_);
+    for (std::size_t i = 0; i < count(); ++i)
+      local_[i] = along_columns(frame.rotation, place(i));
   }
 
   /// Those over the triangle's face within the margin; the manifold's normal is the face's.
@@ -237,20 +239,22 @@ class FacingVertices {
   void add_over(const TriangleContact& contact, Add&& add) const {
     const FacePlane plane(contact.vertices, contact.face_normal);
     const Vec3<Unit>& normal = contact.manifold.normal;
-    for (int i = 0; i < feature_.count; ++i) {
-      const FeaturePoint& vertex = feature_.points[static_cast<std::size_t>(i)];
-      const RawVec local = along_columns(frame_.rotation, vertex.at + fine(frame_.offset));
-      const Fine separation = plane.height(local) - fine(feature_.radius);
-      if (!keeps(separation, frame_.margin) || !plane.has_beside(local)) continue;
-      const RawVec on_b = vertex.at + fine(frame_.offset) - along(normal, feature_.radius);
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Fine separation = plane.height(local_[i]) - fine(feature_.radius);
+      if (!keeps(separation, frame_.margin) || !plane.has_beside(local_[i])) continue;
+      const RawVec on_b = place(i) - along(normal, feature_.radius);
       Manifold one;
       add_point_on(frame_.shape.shape, one, {on_b - along(normal, separation), on_b}, frame_.offset,
-                   separation, frame_.margin, feature_of(vertex));
+                   separation, frame_.margin, feature_of(feature_.points[i]));
       add(one.points[0]);
     }
   }
 
  private:
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(feature_.count); }
+  [[nodiscard]] RawVec place(std::size_t i) const {
+    return feature_.points[i].at + fine(frame_.offset);
+  }
   [[nodiscard]] std::uint32_t feature_of(const FeaturePoint& vertex) const {
     const PosedShape& posed = frame_.shape;
     const auto own = vertex_of(posed, along_columns(posed.rotation, vertex.at));
@@ -259,6 +263,7 @@ class FacingVertices {
 
   const MeshContactFrame& frame_;
   ContactFeature feature_;
+  std::array<RawVec, k_max_polytope_face_edges> local_;  ///< in the triangles' frame
 };
 
 /// A contact's place in the order of groups.

@@ -15,18 +15,37 @@ Position travel(Velocity v, const TimeStep& step) {
 // The way of a turning body's surface in a tick that is within its half of the contact margin.
 constexpr Length k_covered_turn = k_contact_margin * 3 / 8;
 
-// How it turns: ω·2^scale_exponent.
-Vec3<Velocity> surface_velocity_of(const WorldData& world, std::uint32_t body) {
+// The speed of that way, m/s, Q32.
+std::int64_t covered_speed(const TimeStep& step) {
+  constexpr std::int64_t k_way = std::int64_t{k_covered_turn.raw}
+                                 << (Position::frac_bits - Length::frac_bits);
+  return k_way * step.tick_rate;
+}
+
+// How the body turns, ω·2^scale_exponent; zero where the margin covers it.
+Vec3<Velocity> uncovered_turn(const WorldData& world, std::uint32_t body) {
   const BodyRecord& record = world.bodies[body];
-  return surface_velocity(inverse_inertia(record, world.cache.rotation(body)), record.spin);
+  if (record.spin == Vec3<Velocity>{}) return {};
+  const std::int64_t covered = covered_speed(world.time_step);
+  if (record.is_dynamic()) {  // ω is at most spin over the least moment
+    const Unit least = min(record.inertia.x, min(record.inertia.y, record.inertia.z));
+    const std::int64_t spin = sum_of_magnitudes(record.spin);
+    if (spin <= raw::multiply_shift(covered, least.raw, Unit::frac_bits)) return {};
+  }
+  const Vec3<Velocity> surface =
+      surface_velocity(inverse_inertia(record, world.cache.rotation(body)), record.spin);
+  return sum_of_magnitudes(surface) > covered ? surface : Vec3<Velocity>{};
 }
 
 // How far turning takes any point of the body in one tick, along each axis, at most, beyond the way
-// that the margin covers; `reach`: the farthest that a point is from the centre of mass, likewise.
-Vec3<Position> turn_travel(const WorldData& world, std::uint32_t body,
-                           const Vec3<Position>& reach) {
+// that the margin covers.
+Vec3<Position> turn_travel(const WorldData& world, std::uint32_t body, const WorldBox& box) {
+  const Vec3<Velocity> surface = uncovered_turn(world, body);
+  if (surface == Vec3<Velocity>{}) return {};
   const BodyRecord& record = world.bodies[body];
-  const Vec3<Velocity> surface = surface_velocity_of(world, body);
+  Vec3<Position> reach;  // of the farthest points from the centre of mass
+  for (int i = 0; i < 3; ++i)
+    reach[i] = max(box.upper[i] - record.position[i], record.position[i] - box.lower[i]);
   const auto by = [&](Velocity w, Position arm) {
     return saturated_product(travel(abs(w), world.time_step).raw, arm.raw,
                              Position::frac_bits + record.scale_exponent);
@@ -97,13 +116,7 @@ std::uint32_t WorldData::body_count() const {
 Bounds WorldData::bounds_of(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
   const WorldBox box = world_box(placed(body));
-  Vec3<Position> turned;
-  if (turning_speed(*this, body) > 0) {
-    Vec3<Position> reach;
-    for (int i = 0; i < 3; ++i)
-      reach[i] = max(box.upper[i] - record.position[i], record.position[i] - box.lower[i]);
-    turned = turn_travel(*this, body, reach);
-  }
+  const Vec3<Position> turned = turn_travel(*this, body, box);
   Bounds bounds;
   for (int i = 0; i < 3; ++i) {
     const Position margin = rounded<Position>(k_contact_margin / 2) + turned[i];
@@ -157,18 +170,8 @@ bool WorldData::is_obstacle(std::uint32_t body, std::uint32_t other) const {
 }
 
 std::int64_t turning_speed(const WorldData& world, std::uint32_t body) {
-  const BodyRecord& record = world.bodies[body];
-  if (record.spin == Vec3<Velocity>{}) return 0;
-  const std::int64_t covered = std::int64_t{k_covered_turn.raw} *
-                               (1 << (Position::frac_bits - Length::frac_bits)) *
-                               world.time_step.tick_rate;
-  if (record.is_dynamic()) {  // ω is at most spin over the least moment
-    const Unit least = min(record.inertia.x, min(record.inertia.y, record.inertia.z));
-    const std::int64_t spin = sum_of_magnitudes(record.spin);
-    if (spin <= raw::multiply_shift(covered, least.raw, Unit::frac_bits)) return 0;
-  }
-  const std::int64_t speed = sum_of_magnitudes(surface_velocity_of(world, body));
-  return std::max<std::int64_t>(speed - covered, 0);
+  const std::int64_t speed = sum_of_magnitudes(uncovered_turn(world, body));
+  return std::max<std::int64_t>(speed - covered_speed(world.time_step), 0);
 }
 
 }  // namespace lockstone

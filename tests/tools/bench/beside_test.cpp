@@ -8,6 +8,7 @@
 #include "tools/bench/beside/beside_run.h"
 #include "tools/bench/beside/many_islands.h"
 #include "tools/bench/beside/scene_of_world.h"
+#include "tools/bench/general/watch.h"
 #include "tools/fuzz/real.h"
 #include "tools/scenes/build.h"
 
@@ -42,8 +43,7 @@ std::vector<Triple> places_after(const GeneralScene& scene) {
   const std::vector<GeneralChange> changes = changes_of(scene);
   for (int tick = 0; tick < scene.ticks; ++tick) {
     if (tick > 0) engine->change(changes[static_cast<std::size_t>(tick)]);
-    for (const GeneralMove& move : scene.moves)
-      if (move.tick == tick) engine->set_motion(move.body, move.velocity, move.angular_velocity);
+    set_motions(*engine, scene, tick);
     engine->step();
   }
   EXPECT_TRUE(engine->had_room());

@@ -1,5 +1,5 @@
-// Law 9 in scenes of families: a scene takes the same course alone and beside other ones, to the bit
-// (docs/explanation/locality.md).
+// Law 9 in scenes of families: a scene takes the same course alone and beside other ones, to the
+// bit (docs/explanation/locality.md).
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/workload.h"
-#include "tools/bench/general/engine.h"
+#include "tools/bench/general/watch.h"
 
 namespace lockstone::bench {
 namespace {
@@ -51,8 +51,7 @@ class Player {
       : scene_(std::move(scene)), engine_(lockstone_general().make(scene_, k_substeps)) {}
 
   void step(int tick) {
-    for (const GeneralMove& move : scene_.moves)
-      if (move.tick == tick) engine_->set_motion(move.body, move.velocity, move.angular_velocity);
+    set_motions(*engine_, scene_, tick);
     engine_->step();
   }
   [[nodiscard]] std::size_t count() const { return scene_.bodies.size(); }
@@ -85,9 +84,9 @@ void expect_same_course(const std::vector<GeneralScene>& members, int ticks) {
     for (std::size_t i = 0; i < members.size(); ++i) {
       alone[i].step(tick);
       for (std::size_t body = 0; body < alone[i].count(); ++body)
-        ASSERT_NO_FATAL_FAILURE(
-            expect_same(alone[i].state(body), company.state(first + body)))
-            << members[i].family << ':' << members[i].seed << ", body " << body << ", tick " << tick;
+        ASSERT_NO_FATAL_FAILURE(expect_same(alone[i].state(body), company.state(first + body)))
+            << members[i].family << ':' << members[i].seed << ", body " << body << ", tick "
+            << tick;
       first += alone[i].count();
     }
   }
@@ -106,7 +105,8 @@ TEST(FamilyLocality, LetsScenesGoTheWayTheyGoAlone) {
              company.front().may_sleep == scene.may_sleep;
     };
     auto company = std::ranges::find_if(companies, fits);
-    if (company == companies.end()) company = companies.insert(company, std::vector<GeneralScene>{});
+    if (company == companies.end())
+      company = companies.insert(company, std::vector<GeneralScene>{});
     shift(scene, k_apart * static_cast<double>(company->size()));
     company->push_back(std::move(scene));
   }

@@ -135,7 +135,8 @@ class Watch {
       const auto i = static_cast<std::size_t>(body);
       raise(farthest_, norm(now_[i].position - begin_[i].position));
       raise(highest_, now_[i].position[1] - begin_[i].position[1]);
-      raise(deepest_, scene_.low - lowest_point(scene_.bodies[i], now_[i]));
+      if (scene_.judge == Judge::sunk)
+        raise(deepest_, scene_.low - lowest_point(scene_.bodies[i], now_[i]));
       if (scene_.judge == Judge::entered && engine_.entered(body)) seen_[i] = true;
     }
   }
@@ -251,12 +252,12 @@ class Watch {
   double first_ = 0, lowest_ = 0, farthest_ = 0, highest_ = 0, deepest_ = 0, off_ = 0;
 };
 
-void move(GeneralEngine& engine, const GeneralScene& scene, int tick) {
-  for (const GeneralMove& order : scene.moves)
-    if (order.tick == tick) engine.set_motion(order.body, order.velocity, order.angular_velocity);
-}
-
 }  // namespace
+
+void set_motions(GeneralEngine& engine, const GeneralScene& scene, int tick) {
+  for (const GeneralMove& move : scene.moves)
+    if (move.tick == tick) engine.set_motion(move.body, move.velocity, move.angular_velocity);
+}
 
 std::optional<GeneralFigures> play_general(const GeneralMaker& maker, const GeneralScene& scene,
                                            int substeps) {
@@ -266,7 +267,7 @@ std::optional<GeneralFigures> play_general(const GeneralMaker& maker, const Gene
   std::uint64_t taken = 0;
   std::uint32_t contacts = 0;
   for (int tick = 0; tick < scene.ticks; ++tick) {
-    move(*engine, scene, tick);
+    set_motions(*engine, scene, tick);
     const std::uint64_t begin = thread_nanoseconds();
     engine->step();
     taken += thread_nanoseconds() - begin;
@@ -292,7 +293,7 @@ std::string draw_general(const GeneralMaker& maker, const GeneralScene& scene, i
           engine->picture(scene.family + ":" + std::to_string(scene.seed) + ", " + seconds + " s"));
       if (pictures.back().empty()) return {};
     }
-    move(*engine, scene, tick);
+    set_motions(*engine, scene, tick);
     engine->step();
   }
   return render::strip(pictures, render::Picture{}, k_columns);

@@ -5,8 +5,18 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/body/motion.h"
+#include "core/geometry/contact/manifold/contact_choice.h"
 
 namespace lockstone {
+namespace {
+
+// Whether shapes overlap as only bodies do that were pressed together: by more than 4 mm.
+bool is_jammed(const Manifold& manifold) {
+  constexpr Displacement k_deep = Displacement::from_ratio(-1, 250);
+  return geometry::deepest_of(manifold) < geometry::fine(k_deep);
+}
+
+}  // namespace
 
 IslandBuilder::IslandBuilder(std::size_t body_capacity, std::size_t contact_capacity)
     : islands_(body_capacity + contact_capacity + 1, body_capacity), pinched_(contact_capacity) {}
@@ -59,14 +69,6 @@ ImmovablePush IslandBuilder::push_of(const ContactScene& scene, const ContactRef
   const ContactRecord& record = scene.records[contact.record];
   const Vec3<Unit> normal = scene.manifolds[contact.manifold].normal;
   return {of(contact), holds_a ? record.body_a : record.body_b, holds_a ? normal : -normal};
-}
-
-// Whether shapes overlap as only bodies do that were pressed together.
-bool IslandBuilder::is_jammed(const Manifold& manifold) {
-  constexpr Displacement k_deep = Displacement::from_ratio(-1, 250);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i)
-    if (manifold.points[i].separation < k_deep) return true;
-  return false;
 }
 
 void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& contacts) {

@@ -64,7 +64,6 @@ class IslandBuilder {
  private:
   void join(const ContactScene& scene, const SolverBodies& bodies, const ContactList& contacts);
   void mark_pinched(const ContactScene& scene, const ContactList& contacts);
-  [[nodiscard]] static bool is_jammed(const Manifold& manifold);
   [[nodiscard]] ImmovablePush push_of(const ContactScene& scene, const ContactRef& contact) const;
 
   TickIslands islands_;
