@@ -10,6 +10,12 @@ namespace lockstone {
 /// From the Q32 of velocities to the Q50 of rows.
 inline constexpr int k_grid_to_row = lanes::k_velocity_bits - lanes::k_grid_bits;
 
+/// The velocity, or the spin, that a row holds, rounded down.
+[[nodiscard]] inline Vec3<Velocity> velocity_of_row(const std::array<std::int64_t, 3>& v) {
+  return {Velocity::from_raw(v[0] >> k_grid_to_row), Velocity::from_raw(v[1] >> k_grid_to_row),
+          Velocity::from_raw(v[2] >> k_grid_to_row)};
+}
+
 [[nodiscard]] inline lanes::BodyInertia body_inertia(const InverseInertia& m) {
   return {{m.xx, m.yy, m.zz, m.xy, m.xz, m.yz}};
 }

@@ -5,6 +5,7 @@
 #include "core/dynamics/direct/contact_phases.h"
 #include "core/dynamics/direct/contact_speeds.h"
 #include "core/dynamics/direct/phase_solver.h"
+#include "core/dynamics/direct/push_limit.h"
 
 namespace lockstone {
 namespace {
@@ -45,6 +46,7 @@ void BlockSolver::solve(const ContactRun& run, const JointAccess& joints, std::u
   PhaseSolver phase(island, islands_.factor());
   if (!phase.set_units()) return;
   phase.solve(pushes_out);
+  if (pushes_out && island.joints.empty() && limits_pushes(run, island)) phase.solve(pushes_out);
   if (island.state.warms)
     for (lanes::ProximalBlock& problem : island.problems)
       problem.warm = {};

@@ -131,17 +131,55 @@ void fill_ragdolls(SceneMaker& m) {
   heap(m, 15);
 }
 
-// Stones stacked as a pyramid of hulls with flat faces: eight-sided prisms.
-void fill_hull_pyramid(SceneMaker& m) {
-  const int rows = m.count(2, 12);
-  const double r = m.random.between(0.2, 0.4), half = m.random.between(0.1, 0.3);
-  const int corners = m.random.count(5, 9);
+std::vector<Triple> prism_of(int corners, double r, double half) {
   std::vector<Triple> prism;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2 * std::numbers::pi * i / corners;
     for (const double y : {-half, half})
       prism.push_back({r * std::cos(angle), y, r * std::sin(angle)});
   }
+  return prism;
+}
+
+// Thin plates or discs fall onto each other.
+void fill_plates(SceneMaker& m) {
+  const int n = m.count(2, 100);
+  const double size = m.random.between(0.2, 0.6), thick = size / m.random.log_between(10, 50);
+  const bool are_discs = m.random.chance(0.3);
+  m.ground();
+  for (int i = 0; i < n; ++i) {
+    const Triple at = place(m, i, (are_discs ? 1.6 : 1.5) * size, 2);
+    const double wide = size * m.random.between(0.5, 1), deep = size * m.random.between(0.5, 1);
+    const int plate =
+        are_discs ? m.hull(prism_of(8, size, thick), at, 1000) : m.box({wide, thick, deep}, at);
+    const Turn any = m.any_turn(), roll = turn_about({1, 0, 0}, m.random.between(-0.2, 0.2));
+    m.turn(plate, m.random.chance(0.5) ? any : roll);
+  }
+  m.set_friction(m.random.between(0.2, 0.9));
+  heap(m, 15);
+}
+
+// Tetrahedra, some of them flat.
+void fill_tetrahedra(SceneMaker& m) {
+  const int n = m.count(2, 120);
+  const double size = m.random.between(0.08, 0.3), flat = m.random.log_between(0.1, 1);
+  m.ground();
+  for (int i = 0; i < n; ++i) {
+    const double s = size * m.random.between(0.6, 1), h = flat * s;
+    const int hull = m.hull({{s, h, s}, {s, -h, -s}, {-s, h, -s}, {-s, -h, s}},
+                            place(m, i, 2.6 * size, 3), 1000);
+    m.turn(hull, m.any_turn());
+  }
+  m.set_friction(m.random.between(0.2, 0.9));
+  heap(m, 15);
+}
+
+// Stones stacked as a pyramid of hulls with flat faces: eight-sided prisms.
+void fill_hull_pyramid(SceneMaker& m) {
+  const int rows = m.count(2, 12);
+  const double r = m.random.between(0.2, 0.4), half = m.random.between(0.1, 0.3);
+  const int corners = m.random.count(5, 9);
+  const std::vector<Triple> prism = prism_of(corners, r, half);
   m.ground();
   for (int row = 0; row < rows; ++row) {
     for (int i = 0; i < rows - row; ++i)
@@ -176,6 +214,8 @@ void add_rest_families(std::vector<Family>& all) {
                          {"balls", "40-250 balls in a box", fill_balls},
                          {"crates", "10-150 boxes in a pile", fill_crates},
                          {"big-pile", "220-320 boxes in a pile", fill_big_pile},
+                         {"plates", "2-100 thin plates or discs in a heap", fill_plates},
+                         {"tetrahedra", "2-120 tetrahedra in a heap", fill_tetrahedra},
                          {"ragdolls", "1-12 ragdolls in a pile", fill_ragdolls},
                          {"hull-pyramid", "2-12 rows of prisms", fill_hull_pyramid}});
 }

@@ -6,6 +6,7 @@
 #include <lockstone/assert.h>
 
 #include "core/base/reserved.h"
+#include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/body/motion.h"
 #include "core/geometry/distance/manifold_checks.h"
 
@@ -14,15 +15,6 @@ namespace {
 
 using lanes::BodyVelocity;
 using lanes::DeltaPose;
-
-// From the Q50 of rows to the Q32 of velocities.
-Velocity from_row(std::int64_t row) {
-  return Velocity::from_raw(row >> (lanes::k_velocity_bits - lanes::k_grid_bits));
-}
-
-Vec3<Velocity> from_row(const std::array<std::int64_t, 3>& v) {
-  return {from_row(v[0]), from_row(v[1]), from_row(v[2])};
-}
 
 }  // namespace
 
@@ -63,7 +55,7 @@ Vec3<Velocity> SolvedMotion::half_step_back(std::uint32_t number, const BodyReco
   LKS_ASSERT(number > 0 && number < axes_.size());
   const PushAxis& axis = axes_[number];
   if (axis.mixed) return {};
-  Vec3<Velocity> gain = from_row(bodies_.rows()[number].velocity) - body.velocity;
+  Vec3<Velocity> gain = velocity_of_row(bodies_.rows()[number].velocity) - body.velocity;
   if (axis.pushed) {
     const auto times = [](Velocity v, Unit u) {
       return Velocity::from_raw(raw::multiply_shift(v.raw, u.raw, Unit::frac_bits));
@@ -84,7 +76,7 @@ Vec3<Velocity> SolvedMotion::half_step_back(std::uint32_t number, const BodyReco
 
 std::array<Vec3<Velocity>, 2> SolvedMotion::speeds(std::uint32_t number) const {
   const BodyVelocity& row = bodies_.rows()[number];
-  return {from_row(row.velocity), from_row(row.spin)};
+  return {velocity_of_row(row.velocity), velocity_of_row(row.spin)};
 }
 
 std::uint32_t SolvedMotion::scatter(std::uint32_t number, const Mat3& rotation,
@@ -99,8 +91,8 @@ std::uint32_t SolvedMotion::scatter(std::uint32_t number, const Mat3& rotation,
     return sum == 0 ? Velocity{} : moved(sum) - too_far;
   };
   if (body.is_dynamic()) {
-    body.velocity = from_row(row.velocity);
-    body.spin = from_row(row.spin);
+    body.velocity = velocity_of_row(row.velocity);
+    body.spin = velocity_of_row(row.spin);
   }
   if (pose != nullptr) {
     body.position = pose->position;

@@ -4,6 +4,7 @@
 
 #include "core/base/reserved.h"
 #include "core/dynamics/body/energy.h"
+#include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/body/motion.h"
 #include "core/math/product_sum.h"
 
@@ -54,14 +55,9 @@ void BounceLimit::note_gain(std::uint32_t number, const BodyRecord& body, const 
 
 BounceLimit::Bounce BounceLimit::bounce_of(std::uint32_t number, const BodyRecord& body) const {
   LKS_ASSERT(number > 0 && number < bodies_.count());
-  const auto read = [](const auto& v) {
-    const auto part = [](std::int64_t x) {
-      return Velocity::from_raw(x >> (lanes::k_velocity_bits - lanes::k_grid_bits));
-    };
-    return Vec3<Velocity>{part(v[0]), part(v[1]), part(v[2])};
-  };
   const lanes::BodyVelocity& before = bodies_.before()[number];
-  const Vec3<Velocity> velocity = read(before.velocity), spin = read(before.spin);
+  const Vec3<Velocity> velocity = velocity_of_row(before.velocity),
+                       spin = velocity_of_row(before.spin);
   return {velocity, spin, body.velocity - velocity, body.spin - spin};
 }
 

@@ -5,6 +5,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/body/energy.h"
+#include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/linkage/joint_solver.h"
 
 namespace lockstone {
@@ -21,13 +22,6 @@ constexpr std::int64_t k_least_gain = (std::int64_t{1} << 32) / 6400;
 constexpr int k_moving_gain_shift = 4;
 constexpr std::int64_t k_moving_gain = std::int64_t{1} << 30;
 
-Vec3<Velocity> read(const std::array<std::int64_t, 3>& v) {
-  const auto part = [](std::int64_t x) {
-    return Velocity::from_raw(x >> (lanes::k_velocity_bits - lanes::k_grid_bits));
-  };
-  return {part(v[0]), part(v[1]), part(v[2])};
-}
-
 // Velocities of a substep stay within 2048 m/s.
 std::int64_t bounded_row(std::int64_t x) {
   constexpr std::int64_t k_bound = std::int64_t{1} << 61;
@@ -36,7 +30,8 @@ std::int64_t bounded_row(std::int64_t x) {
 
 // Twice the kinetic energy for each mass.
 std::int64_t row_energy(const EnergyLimit::Bodies& all, std::uint32_t i) {
-  const Vec3<Velocity> velocity = read(all.rows[i].velocity), spin = read(all.rows[i].spin);
+  const Vec3<Velocity> velocity = velocity_of_row(all.rows[i].velocity),
+                       spin = velocity_of_row(all.rows[i].spin);
   const Vec3<Velocity> surface = surface_velocity(all.bodies[i].inverse_inertia, spin);
   return energy_product(velocity, velocity,
                         all.joints.own_spin(all.numbers.side(i).body(), spin, surface), surface);
@@ -84,7 +79,7 @@ void EnergyLimit::note(const Bodies& all) {
   for (Island& island : islands_)
     island.first = 0;
   for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
-    starts_[i] = read(all.rows[i].velocity);
+    starts_[i] = velocity_of_row(all.rows[i].velocity);
     island.first = raw::saturating_add(island.first, scale_saturating(row_energy(all, i), mass, 0));
   });
 }
@@ -98,7 +93,7 @@ void EnergyLimit::sum(const Bodies& all) {
   }
   for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
     ProductSum work;  // twice
-    const Vec3<Velocity> end = read(all.rows[i].velocity);
+    const Vec3<Velocity> end = velocity_of_row(all.rows[i].velocity);
     for (int axis = 0; axis < 3; ++axis)
       work.add(all.bodies[i].gain[static_cast<std::size_t>(axis)],
                starts_[i][axis].raw + end[axis].raw);
