@@ -75,13 +75,13 @@ PosedShape posed(const PlacedShape& single) {
 }
 
 // Two shapes without parts: the common case, without copies of them. `out` is empty.
-void add_singles(const BodyPair& pair, PartContacts& out) {
+void add_singles(const BodyPair& pair, const HeldFeatures& held, PartContacts& out) {
   LKS_ASSERT(out.count == 0 && is_single(pair.a) && is_single(pair.b));
   const Vec3<Length> offset = saturated<Length>(pair.b.origin - pair.a.origin);
   PartContact& contact = out.contacts.front();
   contact.part_a = contact.part_b = 0;
   contact.surface_a = contact.surface_b = nullptr;
-  collide(posed(pair.a), posed(pair.b), offset, pair.margin, contact.manifold);
+  collide(posed(pair.a), posed(pair.b), offset, pair.margin, held, contact.manifold);
   if (contact.manifold.count == 0) {
     out.separating_axis = contact.manifold.normal;
     return;
@@ -159,8 +159,9 @@ void for_each_pair_of_pieces(const BodyPair& pair, F&& f) {
 }
 
 // As `collide_bodies`, with B brought near.
-void collide_near(const BodyPair& pair, TriangleScratch* scratch, PartContacts& out) {
-  if (is_single(pair.a) && is_single(pair.b)) return add_singles(pair, out);
+void collide_near(const BodyPair& pair, const HeldFeatures& held, TriangleScratch* scratch,
+                  PartContacts& out) {
+  if (is_single(pair.a) && is_single(pair.b)) return add_singles(pair, held, out);
   if (pair.b.asset != nullptr && pair.b.asset->mesh_kernels() != nullptr) {
     LKS_CHECK(scratch != nullptr);
     for_each_piece_of_a(pair, [&](const Piece& pa) { add_triangles(pair, pa, *scratch, out); });
@@ -173,12 +174,13 @@ void collide_near(const BodyPair& pair, TriangleScratch* scratch, PartContacts& 
 }  // namespace
 
 void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
-                    TriangleScratch* scratch, PartContacts& out) {
+                    TriangleScratch* scratch, PartContacts& out, const HeldFeatures& held) {
   out.clear();
   LKS_ASSERT(margin >= Length{});
-  if (b.shape.kind != ShapeKind::half_space) return collide_near({a, b, margin}, scratch, out);
+  if (b.shape.kind != ShapeKind::half_space)
+    return collide_near({a, b, margin}, held, scratch, out);
   const PlacedShape near_b = met_near(b, a.centre);
-  collide_near({a, near_b, margin}, scratch, out);
+  collide_near({a, near_b, margin}, held, scratch, out);
 }
 
 void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin, PartContacts& out) {

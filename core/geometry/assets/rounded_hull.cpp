@@ -13,7 +13,7 @@ namespace geometry {
 namespace {
 
 Manifold collide_rounded(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                         Length margin) {
+                         Length margin, const HeldFeatures& /*held*/) {
   if (a.shape.kind != ShapeKind::half_space) return collide_convex(a, b, offset, margin);
   const Vec3<Unit> normal = unit_axis(a.rotation.y);
   const PlaneMeeting plane{normal, b, offset, margin, lockstone::dot(normal, offset).raw};

@@ -65,15 +65,15 @@ Manifold collide_primitives(const PosedShape& a, const PosedShape& b, const Vec3
 }
 
 Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                         Length margin) {
+                         Length margin, const HeldFeatures& held) {
   if (a.shape.kind <= ShapeKind::box) return collide_primitives(a, b, offset, margin);
   if (a.shape.kind == ShapeKind::half_space) {
     const bool rounded = b.polytope != nullptr && b.polytope->radius > Length{};
-    return rounded ? b.polytope->kernels->collide(a, b, offset, margin)
+    return rounded ? b.polytope->kernels->collide(a, b, offset, margin, held)
                    : geometry::collide_half_space(a, b, offset, margin);
   }
   if (a.polytope == nullptr) return geometry::traits_of(a.shape).collide(a, b, offset, margin);
-  return a.polytope->kernels->collide(a, b, offset, margin);
+  return a.polytope->kernels->collide(a, b, offset, margin, held);
 }
 
 void collide_two_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
@@ -91,8 +91,9 @@ void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offse
   LKS_ASSERT(margin >= Length{} && margin <= Length::from_integer(64));
   if (a.shape.kind == ShapeKind::box && b.shape.kind == ShapeKind::box)
     return collide_two_boxes(a, b, offset, margin, held, out);
-  out = belongs_first(b, a, offset) ? geometry::flipped(collide_ordered(b, a, -offset, margin))
-                                    : collide_ordered(a, b, offset, margin);
+  out = belongs_first(b, a, offset)
+            ? geometry::flipped(collide_ordered(b, a, -offset, margin, held))
+            : collide_ordered(a, b, offset, margin, held);
 }
 
 void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,

@@ -8,14 +8,14 @@ namespace lockstone::geometry {
 namespace {
 
 Manifold collide_polytope(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                          Length margin) {
+                          Length margin, const HeldFeatures& held) {
   if (b.polytope != nullptr && b.polytope->radius > Length{})
-    return b.polytope->kernels->collide(a, b, offset, margin);
+    return b.polytope->kernels->collide(a, b, offset, margin, held);
   if (b.shape.kind == ShapeKind::sphere) return collide_polytope_sphere(a, b, offset, margin);
   if (b.shape.kind == ShapeKind::capsule) return collide_polytope_capsule(a, b, offset, margin);
   if (b.polytope == nullptr && b.shape.kind != ShapeKind::box)
     return traits_of(b.shape).collide(a, b, offset, margin);
-  return collide_polytopes(a, b, offset, margin);
+  return collide_polytopes(a, b, offset, margin, held);
 }
 
 constexpr PolytopeKernels k_kernels{collide_polytope, cast_ray_at_polytope};

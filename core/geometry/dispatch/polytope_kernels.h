@@ -11,7 +11,7 @@ struct PolytopeKernels {
   /// As `lockstone::collide`; `a` is a polytope, `b` a primitive or polytope. Of polytopes with a
   /// radius, either of the two is one, and `a` may be a half-space.
   Manifold (*collide)(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                      Length margin);
+                      Length margin, const HeldFeatures& held);
   /// As `lockstone::cast_ray`.
   ShapeRayHit (*cast_ray)(const Polytope& polytope, const Mat3& rotation,
                           const Vec3<Length>& origin, const Vec3<Length>& translation);

@@ -14,8 +14,8 @@ class Collect final : public PartVisitor {
 
   void visit(const Part& part) override {
     const PosedShape triangle{part.shape, frame_.rotation, part.polytope};
-    out_.add(part,
-             part.polytope->kernels->collide(triangle, frame_.shape, frame_.offset, frame_.margin));
+    out_.add(part, part.polytope->kernels->collide(triangle, frame_.shape, frame_.offset,
+                                                   frame_.margin, {}));
   }
 
  private:

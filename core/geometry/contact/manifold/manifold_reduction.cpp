@@ -193,10 +193,10 @@ int drop_far_vertices(std::span<FaceVertex> polygon, Length margin) {
   return static_cast<int>(end - polygon.begin());
 }
 
-int reduce_to_four(std::span<FaceVertex> polygon, int shift) {
+int reduce_to_four(std::span<FaceVertex> polygon, int shift, const HeldFeatures& held) {
   LKS_ASSERT(polygon.size() <= k_most_reduced && shift >= 0);
   sort_by_feature(polygon);
-  return reduce_sorted_to_four(without_repeats(polygon), shift, {});
+  return reduce_sorted_to_four(without_repeats(polygon), shift, held);
 }
 
 int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift, const HeldFeatures& held) {

@@ -42,7 +42,8 @@ inline constexpr std::size_t k_most_reduced = 272;
 /// be better by a sixteenth, so that equals do not alternate. A vertex more than k_deeper deeper
 /// than the four replaces the nearest of them. Areas are measured with x and y shifted right by
 /// `shift`, which brings their differences within 2^30.
-[[nodiscard]] int reduce_to_four(std::span<FaceVertex> polygon, int shift);
+[[nodiscard]] int reduce_to_four(std::span<FaceVertex> polygon, int shift,
+                                 const HeldFeatures& held = {});
 
 /// The same for vertices that ascend by feature and have one each. Where four of them have the
 /// features that were held, these stay; one that is more than k_much_deeper deeper than they

@@ -26,13 +26,17 @@ struct Meeting {
   const Vec3<Length>& back;  ///< the reversed offset
   Facing toward_front;       ///< limits −n of axes n in A's frame; allows all but of one-sided A
   Facing of_b;               ///< likewise, for the normals of B in its frame
+  const HeldFeatures& held;  ///< of a tick ago
   FaceSupport a{};
   FaceSupport b{};
   Witness of_a{};  ///< points of A in B's frame
   Witness of_b_points{};
 
+  bool holds_other_face = false;  ///< the reference is the face that is not preferred
+
   [[nodiscard]] bool b_is_reference() const {
-    return a.face < 0 || (b.face >= 0 && b.separation > second_face_threshold(a.separation));
+    if (a.face < 0 || b.face < 0) return a.face < 0;
+    return (b.separation > second_face_threshold(a.separation)) != holds_other_face;
   }
   [[nodiscard]] Fine separation() const {
     if (a.face < 0) return b.separation;
@@ -47,10 +51,10 @@ struct Meeting {
     return b_is_reference() ? a.separation : b.separation;
   }
   [[nodiscard]] PolytopeFaceMeeting on_a() const {
-    return {pair.from_a, pair.offset, pair.margin, a, false};
+    return {pair.from_a, pair.offset, pair.margin, a, false, held};
   }
   [[nodiscard]] PolytopeFaceMeeting on_b() const {
-    return {pair.from_b, back, pair.margin, b, true};
+    return {pair.from_b, back, pair.margin, b, true, held};
   }
 };
 
@@ -79,15 +83,14 @@ struct CrossedEdges {
 
 /// One point between two edges, square to both.
 CrossedEdges edge_manifold(const PolytopePair& pair, const EdgeSupport& edge) {
-  LKS_ASSERT(edge.found && edge.edge_a < 1 << 10 && edge.edge_b < 1 << 10);
+  LKS_ASSERT(edge.found);
   const Segment a = edge_segment(pair.from_a.own, edge.edge_a, pair.rotation_a, {});
   const Segment b = edge_segment(pair.from_b.own, edge.edge_b, pair.rotation_b, fine(pair.offset));
   const ClosestParameters at = closest_parameters(a, b);
   CrossedEdges result;
   result.crossing = at.crossing;
   result.manifold.normal = unit_axis(lockstone::rotate(pair.rotation_a, edge.normal));
-  const std::uint32_t feature = k_hull_edge_bits | static_cast<std::uint32_t>(edge.edge_a) << 10 |
-                                static_cast<std::uint32_t>(edge.edge_b);
+  const std::uint32_t feature = feature_of_edges(edge.edge_a, edge.edge_b);
   add_point(result.manifold, {point_at(a, at.on_a), point_at(b, at.on_b)}, pair.offset,
             edge.separation, pair.margin, feature);
   return result;
@@ -226,6 +229,38 @@ void forget_backward_faces(Meeting& meeting) {
   meeting.b = best_face(meeting.pair.from_b, meeting.of_b, k_any_separation, meeting.of_a);
 }
 
+/// The shape whose face a held contact had goes on giving the reference while the points on it
+/// overlap no more than the other's plane shows, up to the margins of second_face_threshold.
+void hold_face(Meeting& meeting) {
+  const std::uint32_t held = meeting.held.first();
+  if (meeting.a.face < 0 || meeting.b.face < 0 || !is_of_hull_face(held)) return;
+  LKS_ASSERT(!meeting.holds_other_face && meeting.separation() <= 0);
+  if (((held & k_hull_of_b) != 0) == meeting.b_is_reference()) return;
+  const Fine deepest = deepest_of(other_manifold(meeting));
+  meeting.holds_other_face = deepest <= 0 && second_face_threshold(deepest) >= meeting.separation();
+}
+
+/// Two edges that met a tick ago go on doing so until a face or other edges overlap clearly less,
+/// as those of boxes (collide_box.cpp). Without points where they do not.
+Manifold kept_edges(const Meeting& meeting) {
+  const PolytopePair& pair = meeting.pair;
+  LKS_ASSERT(meeting.separation() <= 0);
+  if (!is_of_hull_edges(meeting.held.first())) return {};
+  const EdgeSupport edge = held_edge(pair, meeting.held.first(), meeting.toward_front);
+  if (!edge.found || edge.separation > 0) return {};
+  const Fine better = std::min(edge_threshold(edge.separation), Fine{0});
+  if (best_edge(pair, better, meeting.toward_front, meeting.of_a, meeting.of_b_points).found)
+    return {};
+  const CrossedEdges crossed = edge_manifold(pair, edge);
+  if (!is_sure(pair, crossed)) return {};
+  const Manifold on_reference = reference_manifold(meeting);
+  const Fine face = deepest_of(on_reference);
+  const bool is_face_better =
+      face <= 0 && (are_alike(on_reference.normal, crossed.manifold.normal) ||
+                    edge.separation < held_edge_threshold(face));
+  return is_face_better ? Manifold{} : crossed.manifold;
+}
+
 Manifold collide_meeting(Meeting& meeting) {
   const PolytopePair& pair = meeting.pair;
   const auto edge_above = [&](Fine threshold) {
@@ -239,6 +274,9 @@ Manifold collide_meeting(Meeting& meeting) {
     return collide_apart(meeting, edge_above(meeting.separation()));
   }
   if (pair.from_a.own.one_sided) forget_backward_faces(meeting);
+  hold_face(meeting);
+  const Manifold kept = kept_edges(meeting);
+  if (kept.count > 0) return kept;
   const EdgeSupport edge = edge_above(std::min(edge_threshold(meeting.separation()), Fine{0}));
   if (!edge.found) return collide_overlapping(meeting);
   if (edge.separation > 0) return collide_apart(meeting, edge);
@@ -247,9 +285,9 @@ Manifold collide_meeting(Meeting& meeting) {
 }
 
 Manifold collide_pair(const PosedShape& a, const PosedShape& b, const PolytopePair& pair,
-                      const Facing& toward_front, const Facing& of_b) {
+                      const Facing& toward_front, const Facing& of_b, const HeldFeatures& held) {
   const Vec3<Length> back = -pair.offset;
-  Meeting meeting{a, b, pair, back, toward_front, of_b};
+  Meeting meeting{a, b, pair, back, toward_front, of_b, held};
   const Fine enough = fine(pair.margin) + k_agreement;
   constexpr Facing any{};
   const Facing own{-toward_front.direction, toward_front.limit};  // n · front ≥ −limit
@@ -270,7 +308,8 @@ Manifold collide_pair(const PosedShape& a, const PosedShape& b, const PolytopePa
 
 /// Of one-sided A. Normals that point backward through it do not push. Shapes that touch are as
 /// near along many directions: where one that leans back was found, GJK decides.
-Manifold collide_front(const PosedShape& a, const PosedShape& b, const PolytopePair& pair) {
+Manifold collide_front(const PosedShape& a, const PosedShape& b, const PolytopePair& pair,
+                       const HeldFeatures& held) {
   const PolytopeView& view = pair.from_a;
   const PolytopeFace& front = view.own.faces[0];
   LKS_ASSERT(view.own.one_sided && is_unit(front.normal));
@@ -278,7 +317,7 @@ Manifold collide_front(const PosedShape& a, const PosedShape& b, const PolytopeP
   if (height_above(front, split(centre)) < 0) return {};
   const Vec3<Unit> n = front.normal;
   const Manifold manifold =
-      collide_pair(a, b, pair, {n, -k_backward}, {view.to_other(n), -k_backward});
+      collide_pair(a, b, pair, {n, -k_backward}, {view.to_other(n), -k_backward}, held);
   const Vec3<Unit> world = lockstone::rotate(pair.rotation_a, n);
   const auto leans_back = [&](const Manifold& m) {
     return lockstone::dot(m.normal, world).raw < k_backward;
@@ -289,23 +328,26 @@ Manifold collide_front(const PosedShape& a, const PosedShape& b, const PolytopeP
   return leans_back(nearest) ? Manifold{} : nearest;
 }
 
-Manifold collide_views(const PosedShape& a, const PosedShape& b, const PolytopePair& pair) {
-  return pair.from_a.own.one_sided ? collide_front(a, b, pair) : collide_pair(a, b, pair, {}, {});
+Manifold collide_views(const PosedShape& a, const PosedShape& b, const PolytopePair& pair,
+                       const HeldFeatures& held) {
+  return pair.from_a.own.one_sided ? collide_front(a, b, pair, held)
+                                   : collide_pair(a, b, pair, {}, {}, held);
 }
 
 }  // namespace
 
 Manifold collide_polytopes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                           Length margin) {
+                           Length margin, const HeldFeatures& held) {
   LKS_ASSERT(a.polytope != nullptr && (b.polytope != nullptr || b.shape.kind == ShapeKind::box));
   if (b.polytope != nullptr) {
     return collide_views(
-        a, b, make_polytope_pair(*a.polytope, a.rotation, *b.polytope, b.rotation, offset, margin));
+        a, b, make_polytope_pair(*a.polytope, a.rotation, *b.polytope, b.rotation, offset, margin),
+        held);
   }
   const BoxPolytope box(b.shape.size);
   const Polytope view = box.view();
   return collide_views(
-      a, b, make_polytope_pair(*a.polytope, a.rotation, view, b.rotation, offset, margin));
+      a, b, make_polytope_pair(*a.polytope, a.rotation, view, b.rotation, offset, margin), held);
 }
 
 }  // namespace lockstone::geometry

@@ -6,11 +6,17 @@
 
 #include <lockstone/assert.h>
 
+#include "core/geometry/contact/manifold/contact_choice.h"
+#include "core/geometry/contact/polytope/polytope_face.h"
 #include "core/geometry/distance/manifold_checks.h"
 #include "core/math/roots.h"
 
 namespace lockstone::geometry {
 namespace {
+
+/// Of a half edge in a feature.
+constexpr int k_edge_bits = 10;
+static_assert(k_max_polytope_edges <= 1 << k_edge_bits);
 
 /// Half edges by index.
 struct EdgeList {
@@ -135,6 +141,13 @@ struct EdgeSearch {
   Fine threshold;
   EdgeSupport best{};
 
+  /// Where the edges' arcs cross.
+  void look_at(int edge_a, const GaussArc& a, int edge_b, const GaussArc& b) {
+    const int sign = crossing_sign(a, b);
+    if (sign == 0) return;
+    const RawVec k = cross_narrow(a.edge, b.edge);
+    if (k != RawVec{}) look_at(edge_a, edge_b, signed_axis(direction_of(k.x, k.y, k.z), sign));
+  }
   void look_at(int edge_a, int edge_b, const Vec3<Unit>& normal) {
     LKS_ASSERT(is_unit(normal));
     const PolytopeView& view = pair.from_a;
@@ -174,15 +187,33 @@ EdgeSupport best_edge(const PolytopePair& pair, Fine threshold, const Facing& fr
     const GaussArc b = opposed_arc(pair.from_a, edge_b);
     for (int i = 0; i < edges_a.count; ++i) {
       const int edge_a = edges_a.at[static_cast<std::size_t>(i)];
-      const GaussArc a = arc_of(pair.from_a.own, edge_a);
-      const int sign = crossing_sign(a, b);
-      if (sign == 0) continue;
-      const RawVec k = cross_narrow(a.edge, b.edge);
-      if (k == RawVec{}) continue;
-      search.look_at(edge_a, edge_b, signed_axis(direction_of(k.x, k.y, k.z), sign));
+      search.look_at(edge_a, arc_of(pair.from_a.own, edge_a), edge_b, b);
     }
   }
   LKS_ASSERT(!search.best.found || search.best.separation > threshold);
+  return search.best;
+}
+
+std::uint32_t feature_of_edges(int edge_a, int edge_b) {
+  LKS_ASSERT(edge_a >= 0 && edge_a < 1 << k_edge_bits && edge_b >= 0 && edge_b < 1 << k_edge_bits);
+  return k_hull_edge_bits | static_cast<std::uint32_t>(edge_a) << k_edge_bits |
+         static_cast<std::uint32_t>(edge_b);
+}
+
+bool is_of_hull_edges(std::uint32_t feature) {
+  return feature >> 28 == k_hull_edge_bits >> 28;
+}
+
+EdgeSupport held_edge(const PolytopePair& pair, std::uint32_t feature, const Facing& front) {
+  LKS_ASSERT(is_of_hull_edges(feature));
+  const auto index = [](std::uint32_t x) { return static_cast<int>(x % (1U << k_edge_bits)); };
+  const int edge_a = index(feature >> k_edge_bits), edge_b = index(feature);
+  const auto has = [](const Polytope& polytope, int edge) {
+    return edge < static_cast<int>(polytope.edges.size());
+  };
+  if (!has(pair.from_a.own, edge_a) || !has(pair.from_b.own, edge_b)) return {};
+  EdgeSearch search{pair, front, -k_any_separation};
+  search.look_at(edge_a, arc_of(pair.from_a.own, edge_a), edge_b, opposed_arc(pair.from_a, edge_b));
   return search.best;
 }
 

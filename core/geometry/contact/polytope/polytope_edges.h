@@ -27,6 +27,16 @@ struct EdgeSupport {
 [[nodiscard]] EdgeSupport best_edge(const PolytopePair& pair, Fine threshold, const Facing& front,
                                     const Witness& of_a, const Witness& of_b);
 
+/// The feature of a point of two edges.
+[[nodiscard]] std::uint32_t feature_of_edges(int edge_a, int edge_b);
+
+/// Whether this feature of a point is that of two edges of polytopes.
+[[nodiscard]] bool is_of_hull_edges(std::uint32_t feature);
+
+/// The two edges of such a feature, where their arcs cross.
+[[nodiscard]] EdgeSupport held_edge(const PolytopePair& pair, std::uint32_t feature,
+                                    const Facing& front);
+
 /// The edge as a segment, `rotation` taking it to other axes and `origin` (fine) moving it.
 [[nodiscard]] Segment edge_segment(const Polytope& polytope, int edge, const Mat3& rotation,
                                    const RawVec& origin);

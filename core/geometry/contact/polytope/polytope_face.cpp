@@ -376,7 +376,7 @@ Manifold manifold_of(const ReferenceFrame& frame, const IncidentPolygon& polygon
   }
   const auto used = [&] { return std::span(vertices).first(static_cast<std::size_t>(count)); };
   count = drop_far_vertices(used(), frame.meeting.margin);
-  count = reduce_to_four(used(), frame.shift);
+  count = reduce_to_four(used(), frame.shift, frame.meeting.held);
   Manifold manifold;
   if (count == 0) return manifold;
   manifold.normal = unit_axis(lockstone::rotate(frame.meeting.view.rotation, frame.face.normal));

@@ -13,6 +13,7 @@ struct PolytopeFaceMeeting {
   Length margin;
   FaceSupport face;
   bool own_is_b = false;
+  const HeldFeatures& held;  ///< of a tick ago
 };
 
 /// Features: kind in the two highest of 30 bits.
@@ -20,6 +21,10 @@ inline constexpr std::uint32_t k_hull_face_bits = 1U << 28;
 inline constexpr std::uint32_t k_hull_edge_bits = 2U << 28;
 inline constexpr std::uint32_t k_hull_vertex_bits = 3U << 28;
 inline constexpr std::uint32_t k_hull_of_b = 1U << 27;
+
+[[nodiscard]] constexpr bool is_of_hull_face(std::uint32_t feature) {
+  return feature >> 28 == k_hull_face_bits >> 28;
+}
 
 /// The manifold from the own polytope to the other: up to four points above or below the face.
 /// The incident face is, of those around the deepest vertex, the one that is turned most towards

@@ -16,12 +16,16 @@
 namespace lockstone {
 namespace {
 
-// Of two boxes that touched a tick ago; other pairs hold nothing. Whether boxes that are apart have
-// a contact follows from how bounds are rounded, and must not change the results.
+bool has_faces(const Shape& shape) {
+  return shape.kind == ShapeKind::box || shape.kind == ShapeKind::hull;
+}
+
+// Of two boxes or hulls that touched a tick ago; other pairs hold nothing. Whether bodies that are
+// apart have a contact follows from how bounds are rounded, and must not change the results.
 HeldFeatures held_features(std::span<const ContactRecord> before, const Shape& a, const Shape& b) {
   HeldFeatures held;
   if (before.size() != 1 || !before.front().is_touching()) return held;
-  if (a.kind != ShapeKind::box || b.kind != ShapeKind::box) return held;
+  if (!has_faces(a) || !has_faces(b)) return held;
   LKS_ASSERT(before.front().count <= held.features.size());
   held.count = before.front().count;
   for (std::uint32_t i = 0; i < before.front().count; ++i) {
@@ -44,6 +48,11 @@ bool has_features(const Manifold& manifold, const HeldFeatures& held) {
   for (std::size_t i = 0; are_same && i < held.count; ++i)
     are_same = manifold.points[i].feature == held.features[i];
   return are_same;
+}
+
+// Whether a manifold that was found has the features that were held.
+void note_held(const Manifold& manifold, const HeldFeatures& held, ManifoldInput& input) {
+  if (held.count != 0 && !has_features(manifold, held)) input.held = ManifoldInput::k_holds_others;
 }
 
 }  // namespace
@@ -99,10 +108,11 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
     return timer.found_apart();
   }
   PartContacts& parts = scratch_.part_contacts;
-  collide_bodies(shape_a, shape_b, margin, scratch_.triangles.get(), parts);
+  collide_bodies(shape_a, shape_b, margin, scratch_.triangles.get(), parts, entry.held);
   if (parts.count == 0) data_.separating_axes.note(index, pair, parts.separating_axis);
   timer.found(parts.count);
   if (parts.overflowed) data_.ids.note_overflow();
+  if (parts.count == 1) note_held(parts.contacts.front().manifold, entry.held, input);
   add_contacts(index, {parts.begin(), parts.end()}, input, before);
 }
 
@@ -229,8 +239,7 @@ void PairCollider::fill_single(std::uint32_t index, std::uint32_t id, const Mani
 // The same of a manifold that was found now.
 void PairCollider::fill_found(const WaitingBoxes::Entry& entry, std::uint32_t id) {
   fill_single(entry.index, id, entry.input, entry.before);
-  if (entry.held.count != 0 && !has_features(data_.found.manifolds[id], entry.held))
-    data_.notes.inputs[id].held = ManifoldInput::k_holds_others;
+  note_held(data_.found.manifolds[id], entry.held, data_.notes.inputs[id]);
 }
 
 // All but the manifold, which is there as it was found.
