@@ -23,7 +23,7 @@ struct RestRules {
 
   /// So long a body must rest that is still pushed out of another.
   [[nodiscard]] std::uint16_t long_ticks() const {
-    return static_cast<std::uint16_t>(std::min(8 * ticks, 0xffff));
+    return static_cast<std::uint16_t>(std::min(2 * ticks, 0xffff));
   }
 
   /// A body at rest that gains more than this in each tick does not stay at rest: 2·distance /
