@@ -16,7 +16,7 @@ namespace lockstone::arena {
 namespace {
 
 constexpr std::uint32_t k_snapshot_magic = 0x53414b4c;  // "LKAS"
-constexpr std::uint16_t k_snapshot_version = 2;
+constexpr std::uint16_t k_snapshot_version = 3;
 constexpr std::size_t k_snapshot_header_bytes = 8;
 constexpr std::uint64_t k_hash_seed = 0x6172656e61;
 

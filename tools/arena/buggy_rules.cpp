@@ -18,7 +18,6 @@ constexpr Length k_ride_reach = 2.2_m;
 constexpr Position k_lost_height = -6_m;
 constexpr SolverVelocity k_top_speed = 11_mps;
 constexpr SolverVelocity k_slow = 1.5_mps;
-constexpr SolverVelocity k_bump_lift = 3_mps;  // of a player who is run over
 constexpr std::uint32_t k_lying_ticks = 120;
 constexpr std::int32_t k_quarter_turn = 16384, k_full_lock = 8192;  // 1/65536 turns
 
@@ -28,24 +27,20 @@ bool drives(const Arena& arena, std::size_t slot) {
   return arena.state.game.driver == slot + 1;
 }
 
-// While it sits there the player meets nothing else.
-void set_meets(Arena& arena, std::size_t slot, std::uint32_t mask) {
-  order(arena.world, SetFilter{arena.state.players[slot].body,
-                               {k_player_bit, mask, -static_cast<std::int32_t>(slot) - 1}});
-}
-
 Vec3<Position> beside(const Arena& arena, const Vec3<Length>& offset) {
   const Transform pose = pose_of(arena.world, arena.level.buggy);
   return moved(pose.position, rounded<Length>(rotate(to_matrix(pose.orientation), offset)));
 }
 
-void put(Arena& arena, BodyHandle body, const Vec3<Position>& place) {
-  order(arena.world, Teleport{body, place, Quat{}});
-  order(arena.world, SetVelocity{body, arena.world.velocity(arena.level.buggy)});
+void put(Arena& arena, PlayerRecord& player, const Vec3<Position>& place) {
+  const Vec3<Velocity> velocity = arena.world.velocity(arena.level.buggy);
+  order(arena.world, Teleport{player.body, place, Quat{}});
+  order(arena.world, SetVelocity{player.body, velocity});
+  player.velocity = solver_velocity(velocity);
 }
 
 bool enter(Arena& arena, std::size_t slot) {
-  const World& world = arena.world;
+  World& world = arena.world;
   const PlayerRecord& player = arena.state.players[slot];
   if (arena.state.game.driver != 0 || !world.exists(arena.level.buggy)) return false;
   const Vec3<Length> way =
@@ -53,7 +48,8 @@ bool enter(Arena& arena, std::size_t slot) {
   if (squared_raw(way) > squared_raw({k_ride_reach, {}, {}})) return false;
   release(arena, slot);
   arena.state.game.driver = static_cast<std::uint32_t>(slot + 1);
-  set_meets(arena, slot, 0);
+  // While it sits there the player meets nothing, and nothing sees it.
+  order(world, SetFilter{player.body, {.category = 0, .mask = 0}});
   return true;
 }
 
@@ -98,24 +94,14 @@ void stand_up(Arena& arena, const Vec3<Position>& place, const Quat& orientation
   arena.state.game.lying_ticks = 0;
 }
 
-// Loose bodies that it hits are the driver's; players are thrown up, and the driver is their rival.
-void run_over(Arena& arena, BodyHandle body) {
-  const std::size_t slot = arena.state.game.driver - std::size_t{1};
-  if (body == arena.state.players[slot].body) return;
-  claim(arena, body, slot);
-  if (tag_of(arena.world, body).kind != Kind::player) return;
-  const Mass mass = arena.world.mass(body);
-  order(arena.world, ApplyImpulse{body, impulse_for(mass, {{}, k_bump_lift, {}})});
-}
-
 }  // namespace
 
 void leave_buggy(Arena& arena, std::size_t slot) {
   if (!drives(arena, slot)) return;
   arena.state.game.driver = 0;
-  set_meets(arena, slot, ~std::uint32_t{0});
+  order(arena.world, SetFilter{arena.state.players[slot].body, filter_on_foot(slot)});
   order(arena.world, DriveVehicle{arena.level.buggy, {.handbrake = k_one}});
-  put(arena, arena.state.players[slot].body, beside(arena, {{}, 1_m, -1.4_m}));
+  put(arena, arena.state.players[slot], beside(arena, {{}, 1_m, -1.4_m}));
 }
 
 bool ride(Arena& arena, std::size_t slot, const Input& input, std::uint8_t pressed) {
@@ -126,7 +112,7 @@ bool ride(Arena& arena, std::size_t slot, const Input& input, std::uint8_t press
   } else if (!changes || !enter(arena, slot)) {
     return false;
   }
-  put(arena, arena.state.players[slot].body, beside(arena, {-0.2_m, 1.15_m, {}}));
+  put(arena, arena.state.players[slot], beside(arena, {-0.2_m, 1.15_m, {}}));
   order(arena.world, DriveVehicle{arena.level.buggy, controls_for(arena, input)});
   return true;
 }
@@ -136,9 +122,11 @@ void look_after_buggy(Arena& arena) {
   const BodyHandle buggy = arena.level.buggy;
   if (!world.exists(buggy)) return;
   if (arena.state.game.driver != 0) {
+    // Loose bodies that it hits are the driver's.
+    const std::size_t driver = arena.state.game.driver - std::size_t{1};
     for (const HitEvent& hit : hit_events(world)) {
-      if (hit.a == buggy && world.exists(hit.b)) run_over(arena, hit.b);
-      if (hit.b == buggy && world.exists(hit.a)) run_over(arena, hit.a);
+      if (hit.a == buggy && world.exists(hit.b)) claim(arena, hit.b, driver);
+      if (hit.b == buggy && world.exists(hit.a)) claim(arena, hit.a, driver);
     }
   }
   const Transform pose = pose_of(world, buggy);

@@ -12,7 +12,7 @@
 namespace lockstone::arena {
 
 /// Changes whenever the same inputs may give another game, for reasons other than the core's.
-inline constexpr std::uint32_t k_rules_version = 2;
+inline constexpr std::uint32_t k_rules_version = 3;
 
 inline constexpr std::uint32_t k_config_magic = 0x52414b4c;  // "LKAR"
 inline constexpr std::uint16_t k_config_version = 1;

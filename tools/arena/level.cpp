@@ -3,6 +3,7 @@
 #include <lockstone/literals.h>
 
 #include "tools/arena/integers.h"
+#include "tools/arena/rules.h"
 #include "tools/arena/tags.h"
 
 namespace lockstone::arena {
@@ -66,7 +67,7 @@ void add_zones(World& world, Level& level) {
   const Shape goal = Shape::box(1.25_m, 1_m, 4_m);
   level.goals[0] = add(world, zone(Kind::goal, 0, goal, {-18.25_m, 1_m, {}}));
   level.goals[1] = add(world, zone(Kind::goal, 1, goal, {18.25_m, 1_m, {}}));
-  level.hill = add(world, zone(Kind::hill, 0, Shape::box(2_m, 1_m, 2_m), {{}, 2.5_m, {}}));
+  level.hill = add(world, zone(Kind::hill, 0, hill_zone(), {{}, 2.5_m, {}}));
 }
 
 void add_machines(World& world, Level& level) {
@@ -148,11 +149,10 @@ void add_loose_bodies(World& world, Level& level, const ArenaConfig& config, Ran
 void add_players(Arena& arena) {
   for (std::size_t slot = 0; slot < arena.config.players; ++slot) {
     BodyDef def;
-    def.shape = Shape::capsule(0.5_m, 0.4_m);
+    def.motion = MotionType::kinematic;
+    def.shape = character_def().shape;
     def.position = spawn_point(slot);
-    def.fixed_rotation = true;
-    def.material = {.friction = 0.2_r, .restitution = {}, .density = 100_kgpm3};
-    def.filter = {.category = k_player_bit, .group = -static_cast<std::int32_t>(slot) - 1};
+    def.filter = filter_on_foot(slot);
     def.user_data = Tag{Kind::player, static_cast<std::uint16_t>(slot)}.pack();
     PlayerRecord& player = arena.state.players[slot];
     player.body = add(arena.world, def);
@@ -171,6 +171,10 @@ WorldDef world_def(const ArenaConfig& config) {
   def.contact_capacity = def.body_capacity * 8;
   def.vehicle_capacity = config.variant == Variant::yard ? 1 : 0;
   return def;
+}
+
+Shape hill_zone() {
+  return Shape::box(2_m, 1_m, 2_m);
 }
 
 BodyDef buggy_def() {

@@ -1,5 +1,6 @@
 // The tick, and the rules that need no player: machines, goals, falls.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <lockstone/literals.h>
@@ -79,22 +80,15 @@ void enter_zone(Arena& arena, const ContactEvent& event) {
   }
 }
 
-void stay_in_zone(Arena& arena, const ContactEvent& event) {
-  if (event.a == arena.level.hill) hold_hill(arena, event.b);
-  if (event.b == arena.level.hill) hold_hill(arena, event.a);
-}
-
-// A player or a snowball that hits something owns it.
-void touch(Arena& arena, BodyHandle by, BodyHandle body) {
-  const Tag hand = tag_of(arena.world, by);
-  Tag tag = tag_of(arena.world, body);
-  if (!tag.is_loose()) return;
-  std::uint8_t owner = 0;
-  if (hand.kind == Kind::player) owner = static_cast<std::uint8_t>(hand.number + 1);
-  if (hand.kind == Kind::snowball) owner = hand.owner;
-  if (owner == 0 || owner == tag.owner) return;
-  tag.owner = owner;
-  order(arena.world, SetUserData{body, tag.pack()});
+// Triggers see dynamic bodies only, and characters are none: the zone of the hill is asked.
+void hold_hill(Arena& arena) {
+  const World& world = arena.world;
+  if (!world.exists(arena.level.hill)) return;
+  std::array<BodyHandle, k_max_players> found{};
+  const std::size_t count = world.overlap_shape(hill_zone(), pose_of(world, arena.level.hill),
+                                                found, {.mask = k_player_bit});
+  for (const BodyHandle body : std::span(found).first(count))
+    hold_hill(arena, body);
 }
 
 void fall(Arena& arena, std::size_t slot) {
@@ -121,6 +115,7 @@ void return_player(Arena& arena, std::size_t slot) {
   if (--player.respawn_ticks > 0) return;
   order(arena.world, Teleport{player.body, spawn_point(slot), Quat{}});
   stop(arena.world, player.body);
+  player.velocity = {};
 }
 
 void melt(Arena& arena, ShotRecord& shot) {
@@ -132,6 +127,19 @@ void melt(Arena& arena, ShotRecord& shot) {
 }
 
 }  // namespace
+
+// A player or a snowball that hits something owns it.
+void touch(Arena& arena, BodyHandle by, BodyHandle body) {
+  const Tag hand = tag_of(arena.world, by);
+  Tag tag = tag_of(arena.world, body);
+  if (!tag.is_loose()) return;
+  std::uint8_t owner = 0;
+  if (hand.kind == Kind::player) owner = static_cast<std::uint8_t>(hand.number + 1);
+  if (hand.kind == Kind::snowball) owner = hand.owner;
+  if (owner == 0 || owner == tag.owner) return;
+  tag.owner = owner;
+  order(arena.world, SetUserData{body, tag.pack()});
+}
 
 void add_score(PlayerRecord& player, std::int32_t points) {
   player.score = std::clamp(player.score + points, -k_max_score, k_max_score);
@@ -146,10 +154,9 @@ void score_events(Arena& arena) {
       touch(arena, event.b, event.a);
     } else if (event.kind == EventKind::trigger_enter) {
       enter_zone(arena, event);
-    } else if (event.kind == EventKind::trigger_stay) {
-      stay_in_zone(arena, event);
     }
   }
+  hold_hill(arena);
 }
 
 void retire(Arena& arena) {
@@ -164,12 +171,13 @@ void retire(Arena& arena) {
 }
 
 StepReport advance(Arena& arena, std::span<const PlayerInput> inputs) {
+  drive_machines(arena);  // before the players, whom they carry
   for (std::size_t slot = 0; slot < arena.config.players; ++slot) {
     control_player(arena, slot, inputs[slot]);
   }
-  drive_machines(arena);
   const StepReport report = arena.history.step();
   score_events(arena);
+  knock_by_snowballs(arena);
   look_after_buggy(arena);
   retire(arena);
   return report;

@@ -14,10 +14,6 @@ namespace {
 
 using namespace lockstone::literals;
 
-constexpr SolverVelocity k_walk_speed = 6_mps;
-constexpr SolverVelocity k_ground_change = 0.9_mps;  // of velocity, a tick
-constexpr SolverVelocity k_air_change = 0.12_mps;
-constexpr SolverVelocity k_jump_speed = 5.5_mps;
 constexpr SolverVelocity k_push_speed = 5_mps;
 constexpr SolverVelocity k_push_lift = 1.5_mps;
 constexpr SolverVelocity k_shot_speed = 17_mps;
@@ -25,50 +21,11 @@ constexpr SolverVelocity k_shot_lift = 2_mps;
 constexpr Mass k_push_mass = 90_kg;  // heavier bodies get the impulse of this mass
 constexpr Length k_reach = 1.1_m;
 constexpr Length k_push_radius = 0.9_m;
-constexpr Length k_foot_depth = 1.05_m;  // 0.15 m below the capsule's end
 
-constexpr std::uint8_t k_jump_wait_ticks = 20;
 constexpr std::uint8_t k_push_wait_ticks = 25;
 constexpr std::uint8_t k_shot_wait_ticks = 30;
 constexpr std::uint16_t k_shot_life_ticks = 240;
 constexpr std::uint16_t k_rival_ticks = 300;
-
-struct Footing {
-  bool grounded = false;
-  Vec3<SolverVelocity> velocity{};  // of the body that the player stands on
-};
-
-Footing find_footing(const World& world, BodyHandle body) {
-  const QueryFilter filter{.mask = k_scenery_bit | k_player_bit | k_loose_bit | k_buggy_bit,
-                           .ignore = body};
-  const RayHit hit = world.cast_ray(world.position(body), {{}, -k_foot_depth, {}}, filter);
-  if (hit.body.is_null()) return {};
-  return {true, solver_velocity(world.velocity(hit.body))};
-}
-
-// The stick as a vector of length ≤ 1.
-Vec3<Unit> stick_direction(const Input& input) {
-  std::int32_t x = input.move_x, z = input.move_z;
-  const auto length =
-      static_cast<std::int32_t>(integer_sqrt(static_cast<std::uint64_t>(x * x + z * z)));
-  const std::int32_t full = length > 127 ? length + 1 : 127;
-  return {Unit::from_ratio(x, full), {}, Unit::from_ratio(z, full)};
-}
-
-void walk(Arena& arena, BodyHandle body, const Input& input, const Footing& footing) {
-  World& world = arena.world;
-  Vec3<SolverVelocity> change = along(stick_direction(input), k_walk_speed) + footing.velocity -
-                                solver_velocity(world.velocity(body));
-  change.y = {};
-  change = shortened(change, footing.grounded ? k_ground_change : k_air_change);
-  order(world, ApplyImpulse{body, impulse_for(world.mass(body), change)});
-}
-
-void jump(Arena& arena, PlayerRecord& player) {
-  const Mass mass = arena.world.mass(player.body);
-  order(arena.world, ApplyImpulse{player.body, impulse_for(mass, {{}, k_jump_speed, {}})});
-  player.jump_wait = k_jump_wait_ticks;
-}
 
 void push(Arena& arena, std::size_t slot, const Vec3<Unit>& aim) {
   World& world = arena.world;
@@ -80,8 +37,13 @@ void push(Arena& arena, std::size_t slot, const Vec3<Unit>& aim) {
   Vec3<SolverVelocity> change = along(aim, k_push_speed);
   change.y = k_push_lift;
   for (std::size_t i = 0; i < count; ++i) {
-    const Mass mass = min(world.mass(found[i]), k_push_mass);
-    order(world, ApplyImpulse{found[i], impulse_for(mass, change)});
+    const Tag tag = tag_of(world, found[i]);
+    if (tag.kind == Kind::player && tag.number < arena.config.players) {
+      knock(arena.state.players[tag.number], change);
+    } else {
+      const Mass mass = min(world.mass(found[i]), k_push_mass);
+      order(world, ApplyImpulse{found[i], impulse_for(mass, change)});
+    }
     claim(arena, found[i], slot);
   }
   player.push_wait = k_push_wait_ticks;
@@ -106,6 +68,7 @@ void shoot(Arena& arena, std::size_t slot, const Vec3<Unit>& aim) {
   def.position = moved(arena.world.position(player.body), along(aim, 0.7_m));
   def.velocity = master_velocity(velocity);
   def.material.density = 400_kgpm3;
+  def.events.hit_speed = 3_mps;
   def.filter = {.category = k_shot_bit, .group = -static_cast<std::int32_t>(slot) - 1};
   def.user_data = Tag{Kind::snowball, static_cast<std::uint16_t>(shot - arena.state.shots.data()),
                       static_cast<std::uint8_t>(slot + 1)}
@@ -123,13 +86,9 @@ void count_down(PlayerRecord& player) {
   if (player.rival_ticks > 0 && --player.rival_ticks == 0) player.rival = 0;
 }
 
-void act(Arena& arena, std::size_t slot, const Input& input, std::uint8_t pressed,
-         const Footing& footing) {
+void act(Arena& arena, std::size_t slot, const Input& input, std::uint8_t pressed) {
   PlayerRecord& player = arena.state.players[slot];
   const Vec3<Unit> aim = direction_of(input.yaw);
-  if ((input.buttons & k_jump) != 0 && footing.grounded && player.jump_wait == 0) {
-    jump(arena, player);
-  }
   if ((pressed & k_push) != 0 && player.push_wait == 0) push(arena, slot, aim);
   if ((pressed & k_shoot) != 0 && player.shot_wait == 0) shoot(arena, slot, aim);
 }
@@ -154,7 +113,7 @@ void control_player(Arena& arena, std::size_t slot, const PlayerInput& from) {
   count_down(player);
   if (!arena.world.exists(player.body)) return;
   if (player.respawn_ticks > 0) return;
-  // Nobody sits in an absent slot: the capsule brakes and stands.
+  // Nobody sits in an absent slot: the character brakes and stands.
   const Input input = from.origin == InputOrigin::absent ? Input{} : Input::decode(from.bytes);
   if (from.origin != InputOrigin::absent) player.yaw = input.yaw;
   if (from.origin == InputOrigin::absent) leave_buggy(arena, slot);
@@ -163,9 +122,8 @@ void control_player(Arena& arena, std::size_t slot, const PlayerInput& from) {
     player.buttons = input.buttons;
     return;
   }
-  const Footing footing = find_footing(arena.world, player.body);
-  walk(arena, player.body, input, footing);
-  act(arena, slot, input, pressed, footing);
+  walk(arena, slot, input, (input.buttons & k_jump) != 0 && player.jump_wait == 0);
+  act(arena, slot, input, pressed);
   carry(arena, slot, (input.buttons & k_grab) != 0);
   player.buttons = input.buttons;
 }

@@ -1,9 +1,11 @@
-// The rules of the game. A tick is: players act, machines move, the world steps, events score.
+// The rules of the game. A tick is: machines are driven, players act, the world steps, events
+// score.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include <lockstone/character.h>
 #include <lockstone/simulation.h>
 
 #include "tools/arena/arena.h"
@@ -18,6 +20,19 @@ StepReport advance(Arena& arena, std::span<const PlayerInput> inputs);
 
 /// Applies one player's input: aim, walk, jump, push, carry, shoot.
 void control_player(Arena& arena, std::size_t slot, const PlayerInput& input);
+
+/// A player on foot: its shape, its mass, and the steps and slopes that it walks.
+[[nodiscard]] CharacterDef character_def();
+
+/// Walks the player's character for a tick, and jumps where `jumps` and it stands on ground: pushes
+/// the bodies that stop it and is pushed by those that run into it.
+void walk(Arena& arena, std::size_t slot, const Input& input, bool jumps);
+
+/// Changes the velocity of a player's character.
+void knock(PlayerRecord& player, const Vec3<SolverVelocity>& change);
+
+/// The collision filter of a player who is on foot.
+[[nodiscard]] CollisionFilter filter_on_foot(std::size_t slot);
 
 /// Carry and throw, of which control_player makes use.
 void carry(Arena& arena, std::size_t slot, bool wants);
@@ -38,10 +53,16 @@ bool ride(Arena& arena, std::size_t slot, const Input& input, std::uint8_t press
 /// Leaves the buggy, if the player sits in it.
 void leave_buggy(Arena& arena, std::size_t slot);
 
+/// A loose body becomes the property of the player or snowball that touches it.
+void touch(Arena& arena, BodyHandle by, BodyHandle body);
+
+/// After the step: snowballs that hit players knock them.
+void knock_by_snowballs(Arena& arena);
+
 /// After the step: the buggy's hits, and its return when it lies on its back or fell off.
 void look_after_buggy(Arena& arena);
 
-/// Scores the step's events: touches, goals, the hill.
+/// Scores the step's events, touches and goals, and who holds the hill.
 void score_events(Arena& arena);
 
 /// Puts back objects that fell off and melts old snowballs.

@@ -11,6 +11,8 @@
 
 #include <lockstone/body.h>
 #include <lockstone/simulation.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
 
 namespace lockstone::arena {
 
@@ -26,7 +28,8 @@ inline constexpr std::size_t k_max_shots = k_max_players * k_shots_per_player;
   X(std::uint32_t, lying_ticks)  /* in which the buggy lay on its side or back */
 
 #define ARENA_PLAYER_FIELDS(X) \
-  X(BodyHandle, body)              /* the capsule */ \
+  X(BodyHandle, body)              /* kinematic: other players and snowballs meet it */ \
+  X(Vec3<SolverVelocity>, velocity) /* of the character, in the world */ \
   X(BodyHandle, held)              /* the body it carries, or null */ \
   X(std::int32_t, score) \
   X(std::int16_t, yaw)             /* aim of the last tick */ \

@@ -23,6 +23,10 @@ class Encoder {
     writer_.put(handle.index);
     writer_.put(handle.generation);
   }
+  void field(const char*, const Vec3<SolverVelocity>& velocity) {
+    for (int axis = 0; axis < 3; ++axis)
+      writer_.put(velocity[axis].raw);
+  }
 
  private:
   ByteWriter& writer_;
@@ -41,6 +45,10 @@ class Decoder {
   void field(const char*, BodyHandle& handle) {
     handle.index = reader_.get<std::uint32_t>();
     handle.generation = reader_.get<std::uint32_t>();
+  }
+  void field(const char*, Vec3<SolverVelocity>& velocity) {
+    for (int axis = 0; axis < 3; ++axis)
+      velocity[axis].raw = reader_.get<std::int32_t>();
   }
 
  private:
@@ -78,6 +86,10 @@ class Lister {
   void field(const char* name, BodyHandle handle) {
     field((std::string(name) + ".index").c_str(), handle.index);
     field((std::string(name) + ".generation").c_str(), handle.generation);
+  }
+  void field(const char* name, const Vec3<SolverVelocity>& velocity) {
+    for (int axis = 0; axis < 3; ++axis)
+      field((std::string(name) + '.' + "xyz"[axis]).c_str(), velocity[axis].raw);
   }
 
   std::vector<Entry> entries;

@@ -64,7 +64,7 @@ struct CharacterMove {
 
 /// How the ground carries a character in the coming tick.
 struct CharacterCarry {
-  Vec3<Length> motion{};  ///< for the next move
+  Vec3<Length> motion{};  ///< for the next move: at most 8 m an axis
   Quat turn{};            ///< about the character's up
 };
 

@@ -366,6 +366,10 @@ Vec3<Impulse> weight_of(const World& world, const CharacterDef& character, const
   return {part(gravity.x), part(gravity.y), part(gravity.z)};
 }
 
+Length within_limit(Length way) {
+  return clamp(way, -k_motion_limit, k_motion_limit);
+}
+
 /// Of one tick.
 Angle angle_of(std::uint64_t speed, const World& world) {
   const std::uint64_t angle = speed / world.def().tick_rate >> (32 - Angle::frac_bits);
@@ -409,15 +413,18 @@ CharacterCarry carried_by(const World& world, const CharacterDef& character,
   if (ground.motion == MotionType::static_body || ground.is_asleep) return {};
   const std::int64_t rate = world.def().tick_rate;
   CharacterCarry carry;
-  for (int axis = 0; axis < 3; ++axis)
-    carry.motion[axis] = saturated<Length>(
-        Position::from_raw(raw::round_divide(ground.velocity[axis].raw, rate)));  // m, as m/s
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto way = Position::from_raw(raw::round_divide(ground.velocity[axis].raw, rate));
+    carry.motion[axis] = within_limit(saturated<Length>(way));
+  }
   const Vec3<AngularVelocity>& spin = ground.angular_velocity;
   if (spin == Vec3<AngularVelocity>{}) return carry;
   const Quat turn = from_axis_angle(direction_of(spin.x.raw, spin.y.raw, spin.z.raw),
                                     angle_of(norm(spin.x.raw, spin.y.raw, spin.z.raw), world));
   const Vec3<Length> arm = saturated<Length>(move.ground_point - ground.centre_of_mass);
-  carry.motion += rotate(to_matrix(turn), arm) - arm;
+  const Vec3<Length> way = rotate(to_matrix(turn), arm) - arm;
+  for (int axis = 0; axis < 3; ++axis)
+    carry.motion[axis] = within_limit(carry.motion[axis] + within_limit(way[axis]));
   const Vec3<Unit> up = up_of(character);
   const std::int64_t about_up = raw_along(spin, up);
   const Angle yaw =

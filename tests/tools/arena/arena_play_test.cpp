@@ -102,6 +102,56 @@ TEST(ArenaRules, APushMovesTheBodyInFront) {
   EXPECT_EQ(tag_of(solo.world(), crate).owner, 1);
 }
 
+TEST(ArenaCharacters, PushTheCratesThatStopThem) {
+  Solo solo(k_with_crate);
+  solo.play(60, {});
+  const BodyHandle crate = solo.simulation.arena().level.loose[0];
+  solo.put(solo.player().body, 0, 900, 8'000);
+  solo.put(crate, -1'200, 500, 8'000);
+  solo.play(60, {.move_x = -127});
+  EXPECT_LT(solo.world().position(crate).x, millimetres(-2'500));
+  EXPECT_LT(solo.place().x, millimetres(-1'500));
+  EXPECT_GT(solo.place().x, solo.world().position(crate).x + millimetres(600));
+  EXPECT_EQ(tag_of(solo.world(), crate).owner, 1);
+}
+
+TEST(ArenaCharacters, AreCarriedByTheFerry) {
+  Solo solo({.seed = 1, .loose_bodies = 0, .players = 1});
+  const BodyHandle ferry = solo.simulation.arena().level.ferry;
+  solo.put(solo.player().body, -11'000, 1'500, 4'000);
+  solo.play(20, {});
+  const Vec3<Position> before = solo.world().position(ferry);
+  const Position beside = solo.place().z - before.z;
+  solo.play(300, {});  // it turns back, and the player slips until it has the ferry's speed
+  EXPECT_GT(abs(solo.world().position(ferry).z - before.z), millimetres(1'000));
+  EXPECT_LT(abs(solo.place().z - solo.world().position(ferry).z - beside), millimetres(120));
+}
+
+// 13.4 kg at 17 m/s, into 80 kg.
+TEST(ArenaCharacters, AreKnockedByTheImpulseOfASnowball) {
+  ArenaSimulation game({.seed = 1, .loose_bodies = 0, .players = 2, .variant = Variant::empty});
+  World& world = game.arena_for_tests().world;
+  const auto& players = game.arena().state.players;
+  for (const std::size_t slot : {0U, 1U}) {
+    const Vec3<Position> at{millimetres(slot == 0 ? 0 : 2'500), millimetres(900), {}};
+    ASSERT_EQ(world.apply(Teleport{players[slot].body, at, Quat{}}), Status::ok);
+  }
+  SolverVelocity fastest{};
+  for (int tick = 0; tick < 30; ++tick) {
+    TickInputs inputs;
+    Input{.buttons = static_cast<std::uint8_t>(tick == 2 ? k_shoot : 0)}.encode(inputs.bytes(0));
+    Input{}.encode(inputs.bytes(1));
+    for (const std::size_t slot : {0U, 1U})
+      inputs.set_origin(slot, InputOrigin::received);
+    game.step(inputs.view(2));
+    fastest = max(fastest, players[1].velocity.x);
+  }
+  EXPECT_GT(fastest, SolverVelocity::from_ratio(23, 10));
+  EXPECT_LT(fastest, SolverVelocity::from_ratio(33, 10));
+  EXPECT_GT(world.position(players[1].body).x, millimetres(2'530));
+  EXPECT_EQ(players[1].rival, 1);
+}
+
 TEST(ArenaRules, ASnowballMelts) {
   Solo solo(k_alone);
   solo.play(60, {});
@@ -232,12 +282,12 @@ struct Deeds {
 };
 
 TEST(ArenaBots, MovePressEverythingAndScore) {
-  ArenaSimulation simulation({.seed = 2});
+  ArenaSimulation simulation({.seed = 7});
   std::array<Deeds, 4> deeds{};
   for (int tick = 0; tick < 1800; ++tick) {
-    step_with_bots(simulation, 2);
+    step_with_bots(simulation, 7);
     for (std::size_t slot = 0; slot < deeds.size(); ++slot) {
-      const Input input = bot_input(simulation.arena(), 2, slot);
+      const Input input = bot_input(simulation.arena(), 7, slot);
       deeds[slot].inputs.insert(static_cast<std::uint16_t>(input.yaw) | std::uint64_t{input.buttons}
                                                                             << 16);
       deeds[slot].buttons |= input.buttons;
