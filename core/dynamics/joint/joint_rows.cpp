@@ -80,6 +80,7 @@ class SixAxisRows {
     const std::int64_t turn = shifted(sum.rounded(30), -place().exponent);
     LKS_ASSERT(turn <= std::int64_t{1} << 44 && turn >= -(std::int64_t{1} << 44));
     const JointRow way = rows_.linear_row(reach(), raw_of(frame_a_.x));
+    row.shifts = true;
     for (RawVec3 JointDirections::*part :
          {&JointDirections::linear_a, &JointDirections::linear_b, &JointDirections::angular_a,
           &JointDirections::angular_b}) {

@@ -36,7 +36,13 @@ struct JointDirections {
   RowKind kind = RowKind::lock;
   std::uint8_t axis = 0;
   bool flipped = false;  // the upper limit: impulses count against the axis
+  bool shifts = false;   // a row about an axis that has linear parts too
 };
+
+/// Whether the linear parts of a row are not zero.
+[[nodiscard]] inline bool has_linear_parts(const JointDirections& row) {
+  return row.axis < 3 || row.shifts;
+}
 
 struct JointRow : JointDirections {
   RawVec3 response_a{}, response_b{};  // M·angular: of spin

@@ -99,7 +99,7 @@ template <class Side>
   for (std::size_t r = range.first; r < range.end; ++r) {
     if (jumps[r] == 0) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (rows[r].axis < 3) along[axis].add(side.linear(rows[r])[axis], jumps[r]);
+      if (has_linear_parts(rows[r])) along[axis].add(side.linear(rows[r])[axis], jumps[r]);
       about[axis].add(side.angular(rows[r])[axis], jumps[r]);
     }
   }
@@ -123,7 +123,7 @@ std::int64_t row_speed(const JointRun& run, const LinkedJoint& joint, const Join
   if (joint.rows.is_point && row.axis < 3) {
     sum.add(row.linear_a[row.axis], a.velocity[row.axis]);
     sum.add(row.linear_b[row.axis], b.velocity[row.axis]);
-  } else if (row.axis < 3) {
+  } else if (has_linear_parts(row)) {
     for (std::size_t i = 0; i < 3; ++i) {
       sum.add(row.linear_a[i], a.velocity[i]);
       sum.add(row.linear_b[i], b.velocity[i]);
