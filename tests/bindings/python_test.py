@@ -94,6 +94,11 @@ class Worlds(unittest.TestCase):
     def test_ratchets_and_paths(self):
         assets = lockstone.Assets()
         bend = assets.add_path([((0, 0, 0), (0, 1, 0)), ((4, -1, 0), (0, 1, 0)), ((8, 0, 2), (0, 1, 0))])
+        track = [((0, 0, 0), (0, 1, 0)), ((4, 0, 0), (0, 1, 0))]
+        self.assertEqual(assets.add_path(track, banks=[0, 0]), assets.add_path(track))
+        self.assertNotEqual(assets.add_path(track, banks=[0, "0.5"]), assets.add_path(track))
+        with self.assertRaises(ValueError):
+            assets.add_path(track, banks=[0])
         world = lockstone.World(body_capacity=4, assets=assets)
         anchor = world.create_body(lockstone.sphere("0.1"), motion=lockstone.STATIC)
         bead = world.create_body(lockstone.sphere("0.2"), position=(1, 0, 0))

@@ -53,6 +53,11 @@ class TwinWorlds : public ::testing::Test {
     path_ = path->id();
     EXPECT_EQ(lks_assets_add_path(assets_, raw_bend.data(), raw_bend.size(), 0, &id), LKS_OK);
     EXPECT_EQ(id, path_.value);
+    const std::vector<lks_angle> level(raw_bend.size());
+    EXPECT_EQ(
+        lks_assets_add_banked_path(assets_, raw_bend.data(), level.data(), level.size(), 0, &id),
+        LKS_OK);
+    EXPECT_EQ(id, path_.value);
     const AssetPtr panels = test::sample_panels();
     panels_ = panels->id();
     const std::vector<std::byte> panel_bytes = panels->canonical_bytes();

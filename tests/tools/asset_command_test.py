@@ -108,6 +108,13 @@ class Models(Case):
         self.assertEqual((path["kind"], path["points"], path["closed"]), ("path", 4, True))
         self.assertTrue(16 < path["length"] < 4 * 3.1416 * 2 ** 0.5)  # between the square and its circle
         self.assertFalse(self.build(square, "--as", "path")["closed"])
+        banked = self.write("banked.obj", "v 0 0 0 0\nv 5 0 0 30\nv 10 0 0 -22.5\n")
+        level = self.write("level.obj", "v 0 0 0 0\nv 5 0 0 0\nv 10 0 0 0\n")
+        self.assertEqual(self.build(level, "--as", "path", "--banks")["id"], self.build(banked, "--as", "path")["id"])
+        self.assertNotEqual(self.build(banked, "--as", "path", "--banks")["id"], self.build(level, "--as", "path")["id"])
+        steep = self.write("steep.obj", "v 0 0 0 0\nv 5 0 0 361\n")
+        self.assertIn("steep.obj:2: '361' is beyond 360 degrees", self.refuse(steep, "--as", "path", "--banks"))
+        self.assertIn("four numbers", self.refuse(self.write("few.obj", "v 0 0 0\n"), "--as", "path", "--banks"))
         self.assertIn("close.obj:1: ", self.refuse(self.write("close.obj", "v 0 0 0\nv 0.01 0 0\n"), "--as", "path"))
 
     def test_the_same_file_gives_the_same_bytes(self):

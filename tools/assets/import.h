@@ -39,7 +39,8 @@ struct Imported {
   std::vector<std::string> notes;  ///< dropped parts of the file
 };
 
-/// A hull of all vertices; a path through them in the order of the file, up along y; a mesh of all
+/// A hull of all vertices; a path through them in the order of the file, up along y and
+/// banked by ObjOptions::banks; a mesh of all
 /// faces; or a compound with one hull an object (a group
 /// where the file names no objects), of the vertices of its faces.
 [[nodiscard]] ImportOutcome import_obj(std::string_view text, const ObjImport& options,

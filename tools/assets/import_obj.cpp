@@ -146,7 +146,7 @@ ImportOutcome build_path(const ObjModel& model, const ObjImport& options, Import
   std::vector<PathPoint> points;
   for (const Vec3<Length>& vertex : model.vertices)
     points.push_back({vertex});
-  const PathResult built = Path::build(points, options.closed);
+  const PathResult built = Path::build(points, model.banks, options.closed);
   const std::size_t lines = model.vertex_lines.size();
   if (!built.ok())
     return fault_at(built.point < lines ? model.vertex_lines[built.point] : 0,

@@ -156,6 +156,9 @@ class NameList {
   std::uint32_t current_ = 0;
 };
 
+constexpr Length k_most_degrees = Length::from_integer(360);
+constexpr std::int64_t k_degree_q38 = 4'797'524'517;  // π / 180
+
 class ModelBuilder {
  public:
   ModelBuilder(LineSource& source, const ObjOptions& options, ObjModel& model)
@@ -177,6 +180,7 @@ class ModelBuilder {
       v[axis] = *length;
     }
     if (model_.vertices.size() == k_max_mesh_vertices) return source_.refuse("too many vertices");
+    if (options_.banks && !add_bank()) return;
     model_.vertices.push_back(options_.z_up ? Vec3<Length>{v.x, v.z, -v.y} : v);
     model_.vertex_lines.push_back(source_.number());
   }
@@ -195,6 +199,22 @@ class ModelBuilder {
   void set_material(std::string_view name) { material_.set(name); }
 
  private:
+  bool add_bank() {
+    const Words& words = source_.words();
+    if (words.size() != 5) {
+      source_.refuse("a vertex with a bank needs four numbers");
+      return false;
+    }
+    const auto degrees = scaled_length(read_scientific(words[4]).value(), {false, 1, 0});
+    if (!degrees || abs(*degrees) > k_most_degrees) {
+      source_.refuse(fmt::format("{} is beyond 360 degrees", quoted(words[4])));
+      return false;
+    }
+    model_.banks.push_back(Angle::from_raw(
+        static_cast<std::int32_t>(raw::round_shift(degrees->raw * k_degree_q38, 31))));
+    return true;
+  }
+
   bool add_corner(std::string_view word, int index) {
     const std::string_view text = word.substr(0, word.find('/'));
     // The loader must have read the very text of the file.

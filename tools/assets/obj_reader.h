@@ -19,6 +19,7 @@ inline constexpr std::size_t k_max_face_corners = 256;
 struct ObjOptions {
   ScientificDecimal scale{false, 1, 0};  ///< metres in the file's unit
   bool z_up = false;                     ///< turn the file's z axis up to y
+  bool banks = false;                    ///< of a path: the fourth number of a vertex, degrees
 };
 
 struct ObjTriangle {
@@ -31,6 +32,7 @@ struct ObjTriangle {
 
 struct ObjModel {
   std::vector<Vec3<Length>> vertices;
+  std::vector<Angle> banks;                 ///< by vertex; none where they are not asked for
   std::vector<std::uint32_t> vertex_lines;  ///< line of the file, by vertex
   std::vector<ObjTriangle> triangles;
   // In order of appearance. The first is "": the part before any name.

@@ -245,7 +245,11 @@ AssetPtr random_path(std::uint64_t seed) {
       const std::int32_t x = random.between(-100, 100), z = random.between(-100, 100);
       point.up = {Unit::from_ratio(x, 100), Unit::from_integer(1), Unit::from_ratio(z, 100)};
     }
-    if (const PathResult made = Path::build(points, closed); made.ok()) return made.path;
+    std::vector<Angle> banks;
+    if (chance(random, 3))
+      for (std::size_t i = 0; i < points.size(); ++i)
+        banks.push_back(Angle::from_ratio(random.between(-300, 300), 100));
+    if (const PathResult made = Path::build(points, banks, closed); made.ok()) return made.path;
   }
 }
 

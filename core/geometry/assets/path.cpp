@@ -1,6 +1,7 @@
 // Canonical bytes: asset head · u8 closed · u32 points · per point: 3 × i32 position, 3 × i32 up.
 
 #include <lockstone/path.h>
+#include <lockstone/trigonometry.h>
 
 #include "core/geometry/assets/asset_frame.h"
 #include "core/geometry/assets/spline_curve.h"
@@ -124,6 +125,22 @@ PathResult Path::build(std::span<const PathPoint> points, bool closed) {
     return refused(fault, point);
   const AssetId id = geometry::id_of(encode(points, closed));
   return {std::shared_ptr<const Path>(new Path(id, std::move(made)))};
+}
+
+PathResult Path::build(std::span<const PathPoint> points, std::span<const Angle> banks,
+                       bool closed) {
+  PathResult level = build(points, closed);
+  if (banks.empty() || !level.ok()) return level;
+  if (banks.size() != points.size()) misused("Path::build: as many banks as points, or none");
+  std::vector<PathPoint> turned(points.begin(), points.end());
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    if (banks[i] == Angle{}) continue;
+    const Mat3 frame = geometry_of(*level.path).spline().frame_at(i);
+    const SinCos bank = sin_cos(banks[i]);
+    for (int axis = 0; axis < 3; ++axis)
+      turned[i].up[axis] = rounded<Unit>(frame.z[axis] * bank.cos - frame.y[axis] * bank.sin);
+  }
+  return build(turned, closed);
 }
 
 Result<std::shared_ptr<const Path>> Path::from_bytes(ByteView bytes) {

@@ -299,6 +299,11 @@ Position SplineCurve::find(const Vec3<Position>& point) const {
   return parameter_of(best);
 }
 
+Mat3 SplineCurve::frame_at(std::size_t point) const {
+  const bool is_end = point == pieces_.size();
+  return place_of({is_end ? point - 1 : point, is_end ? k_piece_end : 0}).frame;
+}
+
 CurvePlace SplineCurve::at(Position distance) const {
   constexpr int k_most_curve_steps = 16;
   if (closed_) {

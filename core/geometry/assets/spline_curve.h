@@ -26,6 +26,8 @@ class SplineCurve final : public Curve {
   /// Looks at sixteen places between two points: a curve that nearly stops, or that goes up, has no
   /// frame there; the point before such a place is `point`.
   [[nodiscard]] PathFault fault(std::uint32_t& point) const;
+  /// At a point of the path.
+  [[nodiscard]] Mat3 frame_at(std::size_t point) const;
 
  private:
   // a[0] + a[1]·u + a[2]·u² + a[3]·u³, u = 0 … 1 in Q30; Q32.

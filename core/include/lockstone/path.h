@@ -51,6 +51,12 @@ class Path final : public Asset {
   /// `closed`: goes on from the last point to the first.
   [[nodiscard]] static PathResult build(std::span<const PathPoint> points, bool closed);
 
+  /// The same track, banked: at each point its frame is turned about the direction of the path, to
+  /// the right side as one looks along it, by one of `banks`, rad. As many banks as points, or
+  /// none.
+  [[nodiscard]] static PathResult build(std::span<const PathPoint> points,
+                                        std::span<const Angle> banks, bool closed);
+
   /// The path that `canonical_bytes` came from; malformed when there is no such path.
   [[nodiscard]] static Result<std::shared_ptr<const Path>> from_bytes(ByteView bytes);
 

@@ -14,6 +14,7 @@ static void null_pointers_are_refused(void) {
   const lks_i32x3 w = {0, 0, 0};
   const lks_pose pose = {{0, 0, 0}, lks_quat_identity()};
   const lks_path_point bend = {{0, 0, 0}, {0, 1, 0}};
+  const lks_angle bank = 0;
   const lks_shape shape = lks_sphere(1 << 20);
   lks_surface surface = {0};
   lks_surface_motion motion = {{0, 0, 0}, {0, 0, 0}};
@@ -55,6 +56,10 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_assets_add_path(NULL, &bend, 1, 0, &number));
   NULLED(lks_assets_add_path(assets, NULL, 1, 0, &number));
   NULLED(lks_assets_add_path(assets, &bend, 1, 0, NULL));
+  NULLED(lks_assets_add_banked_path(NULL, &bend, &bank, 1, 0, &number));
+  NULLED(lks_assets_add_banked_path(assets, NULL, &bank, 1, 0, &number));
+  NULLED(lks_assets_add_banked_path(assets, &bend, NULL, 1, 0, &number));
+  NULLED(lks_assets_add_banked_path(assets, &bend, &bank, 1, 0, NULL));
   NULLED(lks_assets_add_rounded_hull(NULL, &w, 1, 64, 1024, &number));
   NULLED(lks_assets_add_rounded_hull(assets, NULL, 1, 64, 1024, &number));
   NULLED(lks_assets_add_rounded_hull(assets, &w, 1, 64, 1024, NULL));

@@ -60,6 +60,35 @@ TEST(Paths, OfACircleAreNearlyOne) {
   }
 }
 
+// Along x and level: up, turned about x, to +z.
+TEST(Paths, LeanToTheRightByTheirBanks) {
+  std::vector<PathPoint> points;
+  std::vector<Angle> banks;
+  for (int i = 0; i < 17; ++i) {
+    points.push_back(test::path_point(4 * i, 0, 0));
+    banks.push_back(Angle::from_ratio(i - 4, 2));  // two radians to the left … six to the right
+  }
+  const PathResult built = Path::build(points, banks, false);
+  ASSERT_TRUE(built.ok()) << to_string(built.fault);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double bank = to_double(banks[i]);
+    const Mat3 frame = to_matrix(built.path->at(points[i].position.x).orientation);
+    EXPECT_NEAR(to_double(frame.z.y), std::cos(bank), 2e-6) << i;
+    EXPECT_NEAR(to_double(frame.z.z), std::sin(bank), 2e-6) << i;
+    EXPECT_NEAR(to_double(frame.x.x), 1, 1e-6) << i;
+  }
+}
+
+TEST(Paths, WithoutABankAreTheSame) {
+  const AssetPtr level = circle(12, 3);
+  const std::span<const PathPoint> points = static_cast<const Path&>(*level).points();
+  const std::vector<Angle> none(points.size());
+  EXPECT_EQ(Path::build(points, {}, true).path->id(), level->id());
+  EXPECT_EQ(Path::build(points, none, true).path->id(), level->id());
+  const std::vector<Angle> banked(points.size(), Angle(0.1_rad));
+  EXPECT_NE(Path::build(points, banked, true).path->id(), level->id());
+}
+
 TEST(Paths, ComeBackFromTheirBytes) {
   const AssetPtr asset = circle(12, 3);
   const std::vector<std::byte> bytes = asset->canonical_bytes();

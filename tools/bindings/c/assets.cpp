@@ -23,6 +23,23 @@ std::vector<Vec3<Length>> points_of(const lks_length3* points, std::size_t count
   return result;
 }
 
+std::vector<PathPoint> path_points(const lks_path_point* points, size_t count) {
+  if (count > k_max_path_points) throw invalid("count", "must be at most 4096");
+  const lks_path_point* raw = array(points, count, "points");
+  std::vector<PathPoint> list(count);
+  for (std::size_t i = 0; i < count; ++i)
+    list[i] = {vec<Length>(raw[i].position), vec<Unit>(raw[i].up)};
+  return list;
+}
+
+void add_path(lks_assets& assets, std::span<const PathPoint> points, std::span<const Angle> banks,
+              bool closed, uint64_t& name) {
+  const PathResult result = Path::build(points, banks, closed);
+  if (!result.ok()) throw invalid("points", to_string(result.fault));
+  assets.list.push_back(result.path);
+  name = result.path->id().value;
+}
+
 }  // namespace
 
 lks_status lks_assets_create(lks_assets** out) {
@@ -59,15 +76,22 @@ lks_status lks_assets_add_path(lks_assets* assets, const lks_path_point* points,
   return call([&] {
     required(assets, "assets");
     required(out, "out");
-    if (count > k_max_path_points) throw invalid("count", "must be at most 4096");
-    const lks_path_point* raw = array(points, count, "points");
-    std::vector<PathPoint> list(count);
+    add_path(*assets, path_points(points, count), {}, flag(closed, "closed"), *out);
+  });
+}
+
+lks_status lks_assets_add_banked_path(lks_assets* assets, const lks_path_point* points,
+                                      const lks_angle* banks, size_t count, uint32_t closed,
+                                      uint64_t* out) {
+  return call([&] {
+    required(assets, "assets");
+    required(out, "out");
+    const std::vector<PathPoint> list = path_points(points, count);
+    const lks_angle* raw = array(banks, count, "banks");
+    std::vector<Angle> angles(count);
     for (std::size_t i = 0; i < count; ++i)
-      list[i] = {vec<Length>(raw[i].position), vec<Unit>(raw[i].up)};
-    const PathResult result = Path::build(list, flag(closed, "closed"));
-    if (!result.ok()) throw invalid("points", to_string(result.fault));
-    assets->list.push_back(result.path);
-    *out = result.path->id().value;
+      angles[i] = Angle::from_raw(raw[i]);
+    add_path(*assets, list, angles, flag(closed, "closed"), *out);
   });
 }
 

@@ -38,6 +38,7 @@ struct BuildOptions {
   bool z_up = false;
   bool groups = false;
   bool closed = false;
+  bool banks = false;
   bool force = false;
   bool json = false;
 };
@@ -93,6 +94,7 @@ std::string parse(const BuildOptions& options, assets::ObjImport& import) {
   import.max_vertices = options.max_vertices;
   import.weld_tolerance = weld.value();
   import.groups = options.groups;
+  import.reading.banks = options.banks;
   for (const std::string& surface : options.surfaces)
     if (!parse_surface(surface, import)) return "--surface: NAME=FRICTION[,RESTITUTION]";
   return {};
@@ -195,6 +197,8 @@ void add_asset_build_command(CLI::App& asset, int& exit_code) {
                     "Mesh: each object of the OBJ file is a group that a world may switch off");
   command->add_flag("--closed", options->closed,
                     "Path: it goes on from the last vertex to the first");
+  command->add_flag("--banks", options->banks,
+                    "Path: the fourth number of a vertex is its bank in degrees, to the right");
   command->add_option("--cell", options->cell, "PNG: metres between samples (default 1)");
   command->add_option("--height", options->height, "PNG: metres from black to white");
   command->add_option("--base", options->base, "PNG: height of black in metres (default 0)");

@@ -220,6 +220,7 @@ export interface Functions {
   lks_assets_destroy(assets: number): void;
   lks_assets_add_hull(assets: number, points: number, count: number, max_vertices: number, out: number): number;
   lks_assets_add_path(assets: number, points: number, count: number, closed: number, out: number): number;
+  lks_assets_add_banked_path(assets: number, points: number, banks: number, count: number, closed: number, out: number): number;
   lks_assets_add_rounded_hull(assets: number, points: number, count: number, max_vertices: number, radius: number, out: number): number;
   lks_assets_add_bytes(assets: number, bytes: number, count: number, out: number): number;
   lks_world_def_init(def: number, size: number): number;

@@ -101,7 +101,12 @@ typedef struct lks_path_point {
  * such path. */
 LKS_API lks_status lks_assets_add_path(lks_assets* assets, const lks_path_point* points,
                                        size_t count, uint32_t closed, uint64_t* out);
-/* The same with a radius, 0.98 mm … 512 m: all points within it of that hull. */
+/* The same track, banked: at each point its frame is turned about the direction of the path, to the
+ * right side as one looks along it, by an angle: `banks` has `count` of them. */
+LKS_API lks_status lks_assets_add_banked_path(lks_assets* assets, const lks_path_point* points,
+                                              const lks_angle* banks, size_t count, uint32_t closed,
+                                              uint64_t* out);
+/* Of lks_assets_add_hull, with a radius, 0.98 mm … 512 m: all points within it of that hull. */
 LKS_API lks_status lks_assets_add_rounded_hull(lks_assets* assets, const lks_length3* points,
                                                size_t count, int32_t max_vertices,
                                                lks_length radius, uint64_t* out);

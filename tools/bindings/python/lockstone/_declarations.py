@@ -1014,6 +1014,7 @@ FUNCTIONS = {
     "lks_assets_destroy": [None, c_void_p],
     "lks_assets_add_hull": [c_int32, c_void_p, POINTER(lks_i32x3), c_size_t, c_int32, POINTER(c_uint64)],
     "lks_assets_add_path": [c_int32, c_void_p, POINTER(lks_path_point), c_size_t, c_uint32, POINTER(c_uint64)],
+    "lks_assets_add_banked_path": [c_int32, c_void_p, POINTER(lks_path_point), POINTER(c_int32), c_size_t, c_uint32, POINTER(c_uint64)],
     "lks_assets_add_rounded_hull": [c_int32, c_void_p, POINTER(lks_i32x3), c_size_t, c_int32, c_int32, POINTER(c_uint64)],
     "lks_assets_add_bytes": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_uint64)],
     "lks_status_name": [c_char_p, c_int32],

@@ -145,6 +145,7 @@ _CALLS = {
     "lks_assets_create": [POINTER(c_void_p)],
     "lks_assets_add_hull": [c_void_p, POINTER(I32x3), c_size_t, c_int32, _NUMBER],
     "lks_assets_add_path": [c_void_p, c_void_p, c_size_t, c_uint32, _NUMBER],
+    "lks_assets_add_banked_path": [c_void_p, c_void_p, c_void_p, c_size_t, c_uint32, _NUMBER],
     "lks_assets_add_rounded_hull": [c_void_p, POINTER(I32x3), c_size_t, c_int32, c_int32, _NUMBER],
     "lks_assets_add_bytes": [c_void_p, c_char_p, c_size_t, _NUMBER],
     "lks_world_keep_history": [_WORLD, c_uint32],

@@ -77,11 +77,23 @@ class Assets:
                                         _length(radius), ctypes.byref(asset))
         return Shape(3, I32x3(0, 0, 0), asset.value)
 
-    def add_path(self, points: Iterable[Tuple[Vector, Vector]], closed: bool = False) -> int:
-        """A smooth curve through 2 … 4096 points, each with the direction up there; its name, for path joints."""
+    def add_path(self, points: Iterable[Tuple[Vector, Vector]], closed: bool = False,
+                 banks: Iterable[Quantity] = ()) -> int:
+        """A smooth curve through 2 … 4096 points, each with the direction up there; its name, for path joints.
+
+        `banks`: none, or for each point the angle in radians by which the track leans to the right.
+        """
         raw = [PathPoint(lengths(point), I32x3(*(units.raw(part, units.UNIT, 32) for part in up)))
                for point, up in points]
+        angles = [units.raw(bank, units.ANGLE, 32) for bank in banks]
+        if angles and len(angles) != len(raw):
+            raise ValueError("banks: as many as points, or none")
         asset = ctypes.c_uint64()
+        if angles:
+            lib.lks_assets_add_banked_path(self.handle, (PathPoint * len(raw))(*raw),
+                                           (ctypes.c_int32 * len(raw))(*angles), len(raw), int(closed),
+                                           ctypes.byref(asset))
+            return asset.value
         lib.lks_assets_add_path(self.handle, (PathPoint * len(raw))(*raw), len(raw), int(closed),
                                 ctypes.byref(asset))
         return asset.value

@@ -1143,6 +1143,9 @@ namespace Lockstone.Interop
         public static extern int lks_assets_add_path(IntPtr assets, lks_path_point* points, UIntPtr count, uint closed, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_assets_add_banked_path(IntPtr assets, lks_path_point* points, int* banks, UIntPtr count, uint closed, ulong* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_rounded_hull(IntPtr assets, lks_i32x3* points, UIntPtr count, int max_vertices, int radius, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

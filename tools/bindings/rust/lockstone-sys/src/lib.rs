@@ -1029,6 +1029,7 @@ extern "C" {
     pub fn lks_assets_destroy(assets: *mut lks_assets);
     pub fn lks_assets_add_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_path(assets: *mut lks_assets, points: *const lks_path_point, count: usize, closed: u32, out: *mut u64) -> lks_status;
+    pub fn lks_assets_add_banked_path(assets: *mut lks_assets, points: *const lks_path_point, banks: *const lks_angle, count: usize, closed: u32, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_rounded_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, radius: lks_length, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_bytes(assets: *mut lks_assets, bytes: *const c_void, count: usize, out: *mut u64) -> lks_status;
     pub fn lks_status_name(status: lks_status) -> *const c_char;

@@ -118,6 +118,28 @@ impl Assets {
         check(unsafe { sys::lks_assets_add_path(self.0, points.as_ptr(), points.len(), closed.into(), &mut name) })?;
         Ok(name)
     }
+    /// Adds a banked path: the track leans to the right by an angle at each point; returns its name.
+    /// As many banks as points.
+    pub fn add_banked_path(
+        &mut self,
+        points: &[sys::lks_path_point],
+        banks: &[sys::lks_angle],
+        closed: bool,
+    ) -> Result<u64> {
+        assert_eq!(points.len(), banks.len(), "as many banks as points");
+        let mut name = 0;
+        check(unsafe {
+            sys::lks_assets_add_banked_path(
+                self.0,
+                points.as_ptr(),
+                banks.as_ptr(),
+                points.len(),
+                closed.into(),
+                &mut name,
+            )
+        })?;
+        Ok(name)
+    }
     /// Adds all points within the radius of that hull; returns its name.
     pub fn add_rounded_hull(&mut self, points: &[lks_i32x3], max_vertices: i32, radius: lks_length) -> Result<u64> {
         let mut name = 0;
