@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <lockstone/vehicle.h>
+
 #include "tools/fuzz/random_features.h"
 #include "tools/fuzz/random_scene.h"
 #include "tools/scenes/build.h"
@@ -92,9 +94,47 @@ void add_chain(World& world, const Place& at, Random& random) {
   }
 }
 
+VehicleDef random_vehicle(Random& random) {
+  const Torque torque = Torque::from_integer(random.between(20, 400));
+  const std::uint32_t kind = random.below(4);
+  VehicleDef def = kind == 0   ? make_motorcycle(1.2_m, {}, torque)
+                   : kind == 1 ? make_tank(1.4_m, 0.5_m, {}, torque)
+                               : make_car(1.4_m, 0.5_m, {}, torque);
+  for (Axle& axle : def.axles)
+    axle.travel = arena::millimetres_long(random.between(50, 400));
+  def.gearbox.automatic = chance(random, 2);
+  def.cast = chance(random, 2) ? WheelCast::sphere : WheelCast::ray;
+  return def;
+}
+
+// It stands next to others, whom its wheels roll over.
+void add_vehicle(World& world, const Place& at, Random& random) {
+  BodyDef chassis = scenes::loose(Shape::box(1_m, 0.2_m, 0.4_m), above(at, random, 900));
+  chassis.mass.mass = Mass::from_integer(random.between(80, 1500));
+  const BodyHandle body = scenes::add(world, chassis);
+  (void)world.apply(SetVehicle{body, random_vehicle(random)});
+  const int count = random.between(0, 3);
+  for (int i = 0; i < count; ++i) {
+    Place place = above(at, random, 150);
+    place.x += millimetres(2000 + 700 * i);
+    scenes::add(world, scenes::loose(Shape::box(0.15_m, 0.1_m, 0.15_m), place));
+  }
+}
+
+VehicleControls random_controls(Random& random) {
+  VehicleControls controls;
+  controls.throttle = Unit::from_ratio(random.between(0, 100), 100);
+  controls.brake = chance(random, 3) ? Unit::from_ratio(random.between(0, 100), 100) : Unit{};
+  controls.handbrake = chance(random, 6) ? Unit::from_integer(1) : Unit{};
+  controls.steer = Unit::from_ratio(random.between(-100, 100), 100);
+  controls.gear = random.between(-1, 3);
+  return controls;
+}
+
 using AddIsland = void (*)(World&, const Place&, Random&);
-constexpr std::array<AddIsland, 8> k_islands{add_stack, add_stack,    add_pile,    add_pile,
-                                             add_doll,  add_platform, add_trigger, add_chain};
+constexpr std::array<AddIsland, 10> k_islands{add_stack,   add_stack,    add_pile,    add_pile,
+                                              add_doll,    add_platform, add_trigger, add_chain,
+                                              add_vehicle, add_vehicle};
 
 BodyDef random_newcomer(Random& random) {
   const Place at{millimetres(random.between(-12'000, 12'000)), 2_m,
@@ -114,6 +154,7 @@ World RandomYard::make() const {
   def.body_capacity = 256;
   def.joint_capacity = 192;
   def.pair_capacity = 4096;
+  def.vehicle_capacity = 16;
   def.contact_capacity = chance(random, 8) ? 100 : 2048;
   def.converged_contacts = chance(random, 4) ? 64 : 1024;
   def.sleep_ms = chance(random, 3) ? 0 : 250;
@@ -133,8 +174,19 @@ World RandomYard::make() const {
 
 void RandomYard::drive(World& world) const {
   drive_events(world, seed_);
+  drive_vehicles_on(world);
   Random random(mix(seed_ ^ mix(world.tick() + 2)));
   if (chance(random, 4)) (void)world.apply(push(world, random));
+}
+
+void RandomYard::drive_vehicles_on(World& world) const {
+  for (std::uint32_t i = 0; i < world.body_limit(); ++i) {
+    Random random(mix(seed_ ^ mix((world.tick() << 8) + i)));
+    if (!chance(random, 40)) continue;
+    const BodyHandle body = world.body_at(i);
+    if (!body.is_null() && vehicle_of(world, body))
+      (void)world.apply(DriveVehicle{body, random_controls(random)});
+  }
 }
 
 Command RandomYard::push(const World& world, Random& random) {
@@ -156,6 +208,11 @@ Command RandomYard::push(const World& world, Random& random) {
       to.x += millimetres(random.between(-2000, 2000));
       return Teleport{body, to, world.body(body).orientation};
     }
+    case 6:
+      return SetVehicle{body, random_vehicle(random)};
+    case 7:
+    case 8:
+      return DriveVehicle{body, random_controls(random)};
     default: {
       Vec3<Velocity> velocity = world.body(body).velocity;
       const int most = chance(random, 6) ? 40 : 4;

@@ -24,6 +24,9 @@ class RandomYard {
   [[nodiscard]] static Command push(const World& world, arena::Random& random);
 
  private:
+  /// The vehicles of the yard get other controls, now and then.
+  void drive_vehicles_on(World& world) const;
+
   std::uint64_t seed_;
 };
 
