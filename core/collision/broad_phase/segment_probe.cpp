@@ -52,7 +52,10 @@ void SegmentProbe::set(const Vec3<Length>& translation) {
     LKS_ASSERT(swept_.lower[i] <= swept_.upper[i]);
     LKS_ASSERT(std::abs(way_[i]) <= std::int64_t{1} << 20);  // which `meets` relies on
   }
-  is_axial_ = std::ranges::count(way_, 0) >= 2;
+  bool is_short = true;
+  for (int i = 0; i < 3; ++i)
+    is_short = is_short && 4 * std::abs(way_[i]) <= half_[i];
+  is_axial_ = is_short || std::ranges::count(way_, 0) >= 2;
 }
 
 // Separating axes of a segment and a box: the box's axes, then their cross products with the

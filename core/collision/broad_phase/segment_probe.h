@@ -10,7 +10,8 @@
 namespace lockstone {
 
 /// A box carried along a segment. Tests are conservative: they may pass bounds that are missed by
-/// up to 3 mm, and never miss bounds that are met.
+/// up to 3 mm, or by the length of a way that is short beside the box, and never miss bounds that
+/// are met.
 class SegmentProbe {
  public:
   /// From `origin` by `translation`, each component within ±k_max_cast, with everything within
@@ -34,7 +35,8 @@ class SegmentProbe {
   std::int64_t middle_[3] = {};
   std::int64_t way_[3] = {};
   std::int64_t half_[3] = {};
-  bool is_axial_ = false;  // the way is along one axis, or none: its bounds are all of it
+  // The way is along one axis, or none, or short beside the box: its bounds are about all of it.
+  bool is_axial_ = false;
 };
 
 /// The point a fraction of the way along.

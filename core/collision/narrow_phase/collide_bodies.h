@@ -27,7 +27,11 @@ struct PartContact {
 struct PartContacts {
   static constexpr int k_capacity = 64;
 
-  std::array<PartContact, k_capacity> contacts{};
+  PartContacts() {}  // tens of kilobytes: not filled with zeros
+
+  union {
+    std::array<PartContact, k_capacity> contacts;  // the first `count`
+  };
   int count = 0;
   bool overflowed = false;
   Vec3<Unit> separating_axis{};  ///< of two single shapes without contacts: zero when none is known

@@ -226,11 +226,11 @@ std::size_t World::contacts_of_shape(const Shape& shape, const Transform& pose, 
   const auto before = [](const ShapeContact& a, const ShapeContact& b) {
     return std::pair(a.body.index, a.part) < std::pair(b.body.index, b.part);
   };
+  PartContacts found;  // large: filled once
   const auto test = [&](const Bounds& bounds) { return overlap(reach, bounds); };
   const auto visit = [&](std::uint32_t index) {
     const BodyRecord& body = world.bodies[index];
     if (!is_seen(body, index, filter)) return;
-    PartContacts found;
     collide_bodies(probe, world.placed(index), margin, found);
     for (const PartContact& contact : found)
       insert_sorted(to_contact(probe, {index, body.generation}, body, contact), out, count, before);

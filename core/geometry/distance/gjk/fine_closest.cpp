@@ -18,55 +18,67 @@ struct Candidate {
   Simplex simplex{};
   RawVec normal{};  ///< from the origin to the point, of any length
   Fine distance = 0;
-  RawVec on_a{};
-  RawVec on_b{};
+  FineFeatures features{};
 };
 
-Candidate with_points(Candidate candidate, const FineFeatures& features) {
-  candidate.is_within = true;
-  candidate.on_a = blend(features, features.a);
-  candidate.on_b = blend(features, features.b);
-  return candidate;
-}
+/// The vertices of a simplex in fine lanes.
+struct FineVertices {
+  std::array<RawVec, 4> a{};
+  std::array<RawVec, 4> b{};
+};
 
-Candidate of_vertex_or_edge(const FinePair& pair, const Simplex& simplex) {
-  Candidate candidate{false, simplex};
-  FineFeatures features = features_of(pair, simplex);
-  if (simplex.count == 2) {
-    weigh_edge(features);
-    if (features.weight[1] == 0 || features.weight[1] == k_whole) return candidate;
+FineVertices vertices_of(const FinePair& pair, const Simplex& all) {
+  FineVertices vertices;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(all.count); ++i) {
+    vertices.a[i] = vertex_of(pair.a, all.vertices[i].a);
+    vertices.b[i] = vertex_of(pair.b, all.vertices[i].b) + pair.offset;
   }
-  candidate.normal = blend(features, features.difference);
-  candidate.distance =
-      static_cast<Fine>(norm(candidate.normal.x, candidate.normal.y, candidate.normal.z));
-  return with_points(candidate, features);
+  return vertices;
 }
 
-Candidate of_triangle(const FinePair& pair, const Simplex& simplex) {
-  Candidate candidate{false, simplex};
-  FineFeatures features = features_of(pair, simplex);
+/// The span of those vertices whose bits are set.
+Candidate span_of(const Simplex& all, const FineVertices& vertices, unsigned mask) {
+  Candidate span;
+  FineFeatures& features = span.features;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(all.count); ++i) {
+    if ((mask >> i & 1) == 0) continue;
+    const auto at = static_cast<std::size_t>(features.count++);
+    span.simplex.vertices[at] = all.vertices[i];
+    features.a[at] = vertices.a[i];
+    features.b[at] = vertices.b[i];
+    features.difference[at] = vertices.b[i] - vertices.a[i];
+  }
+  span.simplex.count = features.count;
+  return span;
+}
+
+void find_on_vertex_or_edge(Candidate& span) {
+  FineFeatures& features = span.features;
+  if (features.count == 2) {
+    weigh_edge(features);
+    if (features.weight[1] == 0 || features.weight[1] == k_whole) return;
+  }
+  span.normal = blend(features, features.difference);
+  span.distance = static_cast<Fine>(norm(span.normal.x, span.normal.y, span.normal.z));
+  span.is_within = true;
+}
+
+void find_on_triangle(Candidate& span) {
+  FineFeatures& features = span.features;
   const RawVec p = features.difference[1] - features.difference[0];
   const RawVec q = features.difference[2] - features.difference[0];
   RawVec normal = truncated(wide_cross(p, q), 61);
   const auto length = static_cast<std::int64_t>(norm(normal.x, normal.y, normal.z));
-  if (length < std::int64_t{1} << 40) return candidate;  // a sliver: its edges will do
+  if (length < std::int64_t{1} << 40) return;  // a sliver: its edges will do
   Fine distance = round_divide(wide_dot(normal, features.difference[0]), length);
   if (distance < 0) {
     normal = -normal;
     distance = -distance;
   }
-  if (!weigh_foot(features, scaled_by_ratio(normal, distance, length), normal)) return candidate;
-  candidate.normal = normal;
-  candidate.distance = distance;
-  return with_points(candidate, features);
-}
-
-Simplex subset(const Simplex& all, unsigned mask) {
-  Simplex part;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(all.count); ++i)
-    if ((mask >> i & 1) != 0)
-      part.vertices[static_cast<std::size_t>(part.count++)] = all.vertices[i];
-  return part;
+  if (!weigh_foot(features, scaled_by_ratio(normal, distance, length), normal)) return;
+  span.normal = normal;
+  span.distance = distance;
+  span.is_within = true;
 }
 
 /// Of the direction's length.
@@ -77,15 +89,14 @@ Fine height_along(const RawVec& direction, const Int128& product) {
 
 /// The least height of vertices along a candidate's normal: that of the nearest point only for the
 /// candidate that holds it, and less for all others.
-Fine least_height(const FinePair& pair, const Simplex& all, const RawVec& normal) {
+Fine least_height(const Simplex& all, const FineVertices& vertices, const RawVec& normal) {
   const RawVec direction = truncated(normal, 61);
-  Fine least = std::numeric_limits<Fine>::max();
+  Int128 least{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(all.count); ++i) {
-    const RawVec a = vertex_of(pair.a, all.vertices[i].a);
-    const RawVec b = vertex_of(pair.b, all.vertices[i].b) + pair.offset;
-    least = std::min(least, height_along(direction, wide_dot(direction, b - a)));
+    const Int128 product = wide_dot(direction, vertices.b[i] - vertices.a[i]);
+    if (i == 0 || product < least) least = product;
   }
-  return least;
+  return height_along(direction, least);
 }
 
 /// The nearest points and the highest plane met so far: bounds of the distance from both sides.
@@ -112,14 +123,14 @@ struct Bounds {
 Candidate nearest_of(const FinePair& pair, const Simplex& all, Bounds& bounds) {
   Candidate best;
   Fine highest = std::numeric_limits<Fine>::min();
+  const FineVertices vertices = vertices_of(pair, all);
   const unsigned masks = std::min(1U << all.count, 15U);
   for (unsigned mask = 1; mask < masks; ++mask) {
-    const Simplex part = subset(all, mask);
-    const Candidate candidate =
-        part.count == 3 ? of_triangle(pair, part) : of_vertex_or_edge(pair, part);
+    Candidate candidate = span_of(all, vertices, mask);
+    candidate.simplex.count == 3 ? find_on_triangle(candidate) : find_on_vertex_or_edge(candidate);
     if (!candidate.is_within || candidate.normal == RawVec{}) continue;
     bounds.take_points(candidate);
-    const Fine height = least_height(pair, all, candidate.normal);
+    const Fine height = least_height(all, vertices, candidate.normal);
     if (height <= highest) continue;
     best = candidate;
     highest = height;
@@ -167,7 +178,9 @@ bool has(const Simplex& simplex, const DifferenceVertex& vertex) {
 }
 
 FineClosest closest_of(const Candidate& nearest, const RawVec& n, bool apart) {
-  return {{direction_of(n.x, n.y, n.z), nearest.distance, nearest.on_a, nearest.on_b},
+  const FineFeatures& features = nearest.features;
+  return {{direction_of(n.x, n.y, n.z), nearest.distance, blend(features, features.a),
+           blend(features, features.b)},
           nearest.simplex,
           apart};
 }
