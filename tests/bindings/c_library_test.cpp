@@ -2,10 +2,12 @@
 #include <array>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <lockstone.h>
 
+#include <lockstone/fit.h>
 #include <lockstone/literals.h>
 #include <lockstone/replay/recorder.h>
 #include <lockstone/replay/verifier.h>
@@ -62,6 +64,24 @@ TEST(CLibrary, ShapesHaveTheNumbersOfTheCore) {
   expect_same(LKS_CONE, ShapeKind::cone);
   expect_same(LKS_TAPERED_CAPSULE, ShapeKind::tapered_capsule);
   expect_same(LKS_ROUNDED_BOX, ShapeKind::rounded_box);
+}
+
+TEST(CLibrary, FitsTheShapesOfTheCore) {
+  const std::vector<Vec3<Length>> points{{1_m, 2_m, {}}, {-1_m, 0.5_m, {}}, {{}, {}, 3_m}};
+  std::vector<lks_length3> raw;
+  for (const Vec3<Length>& point : points)
+    raw.push_back({point.x.raw, point.y.raw, point.z.raw});
+  lks_shape shape;
+  lks_pose pose;
+  ASSERT_EQ(lks_fit(LKS_CAPSULE, raw.data(), raw.size(), &shape, &pose), LKS_OK);
+  const FittedShape fitted = fit_capsule(points).value();
+  EXPECT_EQ(shape.kind, static_cast<std::uint32_t>(LKS_CAPSULE));
+  EXPECT_EQ(shape.size.x, fitted.shape.size.x.raw);
+  EXPECT_EQ(shape.size.y, fitted.shape.size.y.raw);
+  EXPECT_EQ(pose.position.x, rounded<Position>(fitted.position.x).raw);
+  EXPECT_EQ(pose.orientation.w, fitted.orientation.w.raw);
+  EXPECT_EQ(lks_fit(LKS_HULL, raw.data(), raw.size(), &shape, &pose), LKS_INVALID_ARGUMENT);
+  EXPECT_EQ(lks_fit(LKS_BOX, raw.data(), 0, &shape, &pose), LKS_INVALID_ARGUMENT);
 }
 
 TEST(CLibrary, SettingsOfBodiesHaveTheNumbersOfTheCore) {

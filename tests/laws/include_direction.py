@@ -42,7 +42,7 @@ PUBLIC_MODULES = {
              "thread_pool.h", "utf8.h"],
     "math": ["decimal.h", "fixed.h", "game_math.h", "literals.h", "quat.h", "random.h", "roots.h", "rotation.h",
              "transform.h", "trigonometry.h", "units.h", "vec3.h", "vector_math.h"],
-    "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "load_asset.h", "material.h",
+    "geometry": ["asset.h", "compound.h", "fit.h", "height_field.h", "hull.h", "load_asset.h", "material.h",
                  "mesh.h", "path.h", "shape.h"],
     "collision": ["collision.h"],
     "dynamics": ["body.h", "fluid.h", "joint.h", "rules.h", "terrain.h", "vehicle.h"],

@@ -22,6 +22,7 @@ static void null_pointers_are_refused(void) {
   lks_hit hit;
   lks_closest closest;
   lks_pose read_pose;
+  lks_shape fitted;
   lks_quat turn;
   lks_hashes hashes;
   lks_bone bone;
@@ -49,6 +50,9 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_from_decimal(NULL, 0, &raw));
   NULLED(lks_from_decimal("1", 0, NULL));
   NULLED(lks_to_decimal(0, 0, NULL, 9));
+  NULLED(lks_fit(LKS_BOX, NULL, 1, &fitted, &read_pose));
+  NULLED(lks_fit(LKS_BOX, &w, 1, NULL, &read_pose));
+  NULLED(lks_fit(LKS_BOX, &w, 1, &fitted, NULL));
   NULLED(lks_assets_create(NULL));
   NULLED(lks_assets_add_hull(NULL, &w, 1, 64, &number));
   NULLED(lks_assets_add_hull(assets, NULL, 1, 64, &number));

@@ -1,6 +1,7 @@
 // Sets of assets.
 #include <memory>
 
+#include <lockstone/fit.h>
 #include <lockstone/hull.h>
 #include <lockstone/load_asset.h>
 #include <lockstone/path.h>
@@ -41,6 +42,23 @@ void add_path(lks_assets& assets, std::span<const PathPoint> points, std::span<c
 }
 
 }  // namespace
+
+lks_status lks_fit(uint32_t kind, const lks_length3* points, size_t count, lks_shape* shape,
+                   lks_pose* pose) {
+  return call([&] {
+    required(shape, "shape");
+    required(pose, "pose");
+    const std::vector<Vec3<Length>> list = points_of(points, count);
+    Result<FittedShape> fitted = Status::invalid_argument;
+    if (kind == LKS_SPHERE) fitted = fit_sphere(list);
+    if (kind == LKS_BOX) fitted = fit_box(list);
+    if (kind == LKS_CAPSULE) fitted = fit_capsule(list);
+    if (!fitted) throw invalid("points", "need a sphere, box or capsule of at most 512 m");
+    *shape = raw_of(fitted.value().shape);
+    *pose =
+        raw_of(Transform{rounded<Position>(fitted.value().position), fitted.value().orientation});
+  });
+}
 
 lks_status lks_assets_create(lks_assets** out) {
   return call([&] {

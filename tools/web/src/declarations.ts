@@ -216,6 +216,7 @@ export interface Functions {
   lks_from_ratio(numerator: bigint, denominator: bigint, bits: number, out: number): number;
   lks_from_decimal(text: number, bits: number, out: number): number;
   lks_to_decimal(raw: bigint, bits: number, out: number, capacity: number): number;
+  lks_fit(kind: number, points: number, count: number, shape: number, pose: number): number;
   lks_assets_create(out: number): number;
   lks_assets_destroy(assets: number): void;
   lks_assets_add_hull(assets: number, points: number, count: number, max_vertices: number, out: number): number;

@@ -101,17 +101,20 @@ export class Assets {
 
   /**
    * A path for path joints: a smooth curve through 2 … 4096 points, each with the direction up there (y unless
-   * given); its name.
+   * given) and with the angle in radians by which the track leans to the right (0 unless given); its name.
    */
-  addPath(points: readonly { position: Vector; up?: Vector }[], closed = false): bigint {
+  addPath(points: readonly { position: Vector; up?: Vector; bank?: number }[], closed = false): bigint {
     const { heap } = this.lockstone;
     const { $bytes, position, up } = c.lks_path_point;
-    return this.add(points.length * $bytes, (room) => {
+    const banks = points.length * $bytes;
+    return this.add(banks + points.length * 4, (room) => {
       points.forEach((point, i) => {
         heap.putVector32(room + i * $bytes + position, point.position, c.LKS_LENGTH_BITS);
         heap.putVector32(room + i * $bytes + up, point.up ?? [0, 1, 0], c.LKS_UNIT_BITS);
+        heap.put32(room + banks + i * 4, point.bank ?? 0, c.LKS_ANGLE_BITS);
       });
-      return heap.f.lks_assets_add_path(this.address, room, points.length, closed ? 1 : 0, heap.output);
+      return heap.f.lks_assets_add_banked_path(
+        this.address, room, room + banks, points.length, closed ? 1 : 0, heap.output);
     });
   }
 

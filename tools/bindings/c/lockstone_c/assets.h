@@ -77,6 +77,12 @@ static inline lks_shape lks_hull(uint64_t asset) {
   return lks_shape_of(LKS_HULL, 0, 0, 0, asset);
 }
 
+/* A sphere, box or capsule (`kind`) about 1 … 65536 points within ±512 m, and its frame in that of
+ * the points: all of them lie inside, or outside by at most 8 µm. LKS_INVALID_ARGUMENT for another
+ * kind, and where the shape would be too large. */
+LKS_API lks_status lks_fit(uint32_t kind, const lks_length3* points, size_t count, lks_shape* shape,
+                           lks_pose* pose);
+
 /* A set of assets, to be filled before worlds are made with it. Every peer needs the same set. */
 typedef struct lks_assets lks_assets;
 

@@ -1010,6 +1010,7 @@ class lockstone_game_table(Structure):
 
 # The types of the result and of the arguments.
 FUNCTIONS = {
+    "lks_fit": [c_int32, c_uint32, POINTER(lks_i32x3), c_size_t, POINTER(lks_shape), POINTER(lks_pose)],
     "lks_assets_create": [c_int32, POINTER(c_void_p)],
     "lks_assets_destroy": [None, c_void_p],
     "lks_assets_add_hull": [c_int32, c_void_p, POINTER(lks_i32x3), c_size_t, c_int32, POINTER(c_uint64)],

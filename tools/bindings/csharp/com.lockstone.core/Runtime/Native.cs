@@ -1131,6 +1131,9 @@ namespace Lockstone.Interop
         public const uint LOCKSTONE_GAME_CANONICAL = 1;
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_fit(uint kind, lks_i32x3* points, UIntPtr count, lks_shape* shape, lks_pose* pose);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_create(IntPtr* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -1025,6 +1025,7 @@ pub struct lockstone_game_table {
 }
 
 extern "C" {
+    pub fn lks_fit(kind: u32, points: *const lks_length3, count: usize, shape: *mut lks_shape, pose: *mut lks_pose) -> lks_status;
     pub fn lks_assets_create(out: *mut *mut lks_assets) -> lks_status;
     pub fn lks_assets_destroy(assets: *mut lks_assets);
     pub fn lks_assets_add_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, out: *mut u64) -> lks_status;
