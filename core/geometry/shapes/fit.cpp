@@ -79,6 +79,21 @@ std::vector<FitPoint> turned(std::span<const FitPoint> points, const Mat3& axes)
   return result;
 }
 
+struct FitRange {
+  std::int64_t low = 0, high = 0;
+
+  [[nodiscard]] std::int64_t middle() const { return (low + high) >> 1; }
+};
+
+FitRange range_of(std::span<const FitPoint> points, int axis) {
+  FitRange range{points[0][axis], points[0][axis]};
+  for (const FitPoint& point : points) {
+    range.low = std::min(range.low, point[axis]);
+    range.high = std::max(range.high, point[axis]);
+  }
+  return range;
+}
+
 struct FittedBox {
   Quat orientation{};
   FitPoint centre{};  // along its own axes
@@ -91,13 +106,9 @@ FittedBox box_along(std::span<const FitPoint> points, const Quat& orientation) {
   FittedBox box{orientation};
   const std::vector<FitPoint> local = turned(points, to_matrix(orientation));
   for (int axis = 0; axis < 3; ++axis) {
-    std::int64_t low = local[0][axis], high = low;
-    for (const FitPoint& point : local) {
-      low = std::min(low, point[axis]);
-      high = std::max(high, point[axis]);
-    }
-    box.centre[axis] = (low + high) >> 1;
-    box.half[axis] = (high - low + 1) / 2;
+    const FitRange range = range_of(local, axis);
+    box.centre[axis] = range.middle();
+    box.half[axis] = (range.high - range.low + 1) / 2;
   }
   return box;
 }
@@ -184,8 +195,7 @@ Result<FittedShape> fit_capsule(std::span<const Vec3<Length>> points) {
   const std::vector<FitPoint> raws = raws_of(points);
   const Quat orientation = along_longest(box_about(raws));
   std::vector<FitPoint> local = turned(raws, to_matrix(orientation));
-  const auto [low, high] = std::ranges::minmax(local, {}, &FitPoint::y);
-  const std::int64_t middle = (low.y + high.y) >> 1;
+  const std::int64_t middle = range_of(local, 1).middle();
   std::vector<FitPoint> across = local;
   for (FitPoint& point : across)
     point.y = 0;
