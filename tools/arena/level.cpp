@@ -67,7 +67,7 @@ void add_zones(World& world, Level& level) {
   const Shape goal = Shape::box(1.25_m, 1_m, 4_m);
   level.goals[0] = add(world, zone(Kind::goal, 0, goal, {-18.25_m, 1_m, {}}));
   level.goals[1] = add(world, zone(Kind::goal, 1, goal, {18.25_m, 1_m, {}}));
-  level.hill = add(world, zone(Kind::hill, 0, hill_zone(), {{}, 2.5_m, {}}));
+  level.hill = add(world, zone(Kind::hill, 0, Shape::box(2_m, 1_m, 2_m), {{}, 2.5_m, {}}));
 }
 
 void add_machines(World& world, Level& level) {
@@ -171,10 +171,6 @@ WorldDef world_def(const ArenaConfig& config) {
   def.contact_capacity = def.body_capacity * 8;
   def.vehicle_capacity = config.variant == Variant::yard ? 1 : 0;
   return def;
-}
-
-Shape hill_zone() {
-  return Shape::box(2_m, 1_m, 2_m);
 }
 
 BodyDef buggy_def() {

@@ -20,9 +20,6 @@ namespace lockstone::arena {
 /// The playing field spans ± this in x and z.
 inline constexpr std::int32_t k_field_half_mm = 20'000;
 
-/// The shape of the zone over the hill.
-[[nodiscard]] Shape hill_zone();
-
 /// The buggy where it starts and returns to, standing.
 [[nodiscard]] BodyDef buggy_def();
 [[nodiscard]] VehicleDef buggy_wheels();

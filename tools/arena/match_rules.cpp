@@ -1,6 +1,5 @@
 // The tick, and the rules that need no player: machines, goals, falls.
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <lockstone/literals.h>
@@ -80,15 +79,9 @@ void enter_zone(Arena& arena, const ContactEvent& event) {
   }
 }
 
-// Triggers see dynamic bodies only, and characters are none: the zone of the hill is asked.
-void hold_hill(Arena& arena) {
-  const World& world = arena.world;
-  if (!world.exists(arena.level.hill)) return;
-  std::array<BodyHandle, k_max_players> found{};
-  const std::size_t count = world.overlap_shape(hill_zone(), pose_of(world, arena.level.hill),
-                                                found, {.mask = k_player_bit});
-  for (const BodyHandle body : std::span(found).first(count))
-    hold_hill(arena, body);
+void stay_in_zone(Arena& arena, const ContactEvent& event) {
+  if (event.a == arena.level.hill) hold_hill(arena, event.b);
+  if (event.b == arena.level.hill) hold_hill(arena, event.a);
 }
 
 void fall(Arena& arena, std::size_t slot) {
@@ -154,9 +147,10 @@ void score_events(Arena& arena) {
       touch(arena, event.b, event.a);
     } else if (event.kind == EventKind::trigger_enter) {
       enter_zone(arena, event);
+    } else if (event.kind == EventKind::trigger_stay) {
+      stay_in_zone(arena, event);
     }
   }
-  hold_hill(arena);
 }
 
 void retire(Arena& arena) {

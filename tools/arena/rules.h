@@ -62,7 +62,7 @@ void knock_by_snowballs(Arena& arena);
 /// After the step: the buggy's hits, and its return when it lies on its back or fell off.
 void look_after_buggy(Arena& arena);
 
-/// Scores the step's events, touches and goals, and who holds the hill.
+/// Scores the step's events: touches, goals, the hill.
 void score_events(Arena& arena);
 
 /// Puts back objects that fell off and melts old snowballs.

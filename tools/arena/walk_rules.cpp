@@ -120,8 +120,9 @@ CharacterDef character_def() {
 }
 
 CollisionFilter filter_on_foot(std::size_t slot) {
-  return {
-      .category = k_player_bit, .mask = k_shot_bit, .group = -static_cast<std::int32_t>(slot) - 1};
+  return {.category = k_player_bit,
+          .mask = k_shot_bit | k_zone_bit,
+          .group = -static_cast<std::int32_t>(slot) - 1};
 }
 
 void knock(PlayerRecord& player, const Vec3<SolverVelocity>& change) {

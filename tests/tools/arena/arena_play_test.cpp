@@ -127,6 +127,13 @@ TEST(ArenaCharacters, AreCarriedByTheFerry) {
   EXPECT_LT(abs(solo.place().z - solo.world().position(ferry).z - beside), millimetres(120));
 }
 
+TEST(ArenaCharacters, ScoreForTheHillThatTheyHold) {
+  Solo solo({.seed = 1, .loose_bodies = 0, .players = 1});
+  solo.put(solo.player().body, 0, 2'500, 0);
+  solo.play(190, {});
+  EXPECT_EQ(solo.player().score, 3);
+}
+
 // 13.4 kg at 17 m/s, into 80 kg.
 TEST(ArenaCharacters, AreKnockedByTheImpulseOfASnowball) {
   ArenaSimulation game({.seed = 1, .loose_bodies = 0, .players = 2, .variant = Variant::empty});
