@@ -35,13 +35,14 @@ namespace {
                                          target::update_balls, target::relax_balls};               \
   constexpr BoxKernels k_boxes_##target{target::meet_boxes, target::place_points};
 
-#define LKS_ISLAND_KERNELS(target)                                                    \
-  constexpr ProximalKernels                                                           \
-      k_islands{target::magnitudes,     target::begin_phase,      target::pass,       \
-                target::find_residuals, target::add_right_sides,  target::propose,    \
-                target::add_changes,    target::update_residuals, target::couple,     \
-                target::add_to_matrix,  target::eliminate,        target::solve_down, \
-                target::solve_up};                                                    \
+#define LKS_ISLAND_KERNELS(target)                                                       \
+  constexpr ProximalKernels                                                              \
+      k_islands{target::magnitudes,     target::begin_phase,      target::pass,          \
+                target::find_residuals, target::add_right_sides,  target::propose,       \
+                target::add_changes,    target::update_residuals, target::couple,        \
+                target::add_to_matrix,  target::add_rows,         target::subtract_rows, \
+                target::row_products,   target::eliminate,        target::solve_down,    \
+                target::solve_up};                                                       \
   constexpr const ProximalKernels* k_island_kernels = &k_islands;
 
 #if defined(__x86_64__) && HWY_TARGETS & HWY_AVX2

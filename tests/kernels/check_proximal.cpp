@@ -155,6 +155,39 @@ std::string check_matrix(const Scene& start, Random& random) {
   return compare(step, scene);
 }
 
+// Rows of a joint, some of them in use. Words are any.
+std::string check_rows(Random& random) {
+  std::vector<BlockWord> rows(k_block_lanes + 4);
+  std::vector<std::int64_t> errors(rows.size());
+  for (BlockWord& row : rows)
+    std::generate(row.begin(), row.end(), [&] { return word(random); });
+  std::generate(errors.begin(), errors.end(), [&] { return operand(random); });
+  const auto used = static_cast<std::uint32_t>(random.below(std::size_t{1} << rows.size()));
+  const std::uint64_t which = random.next();
+  Scene scene;
+  scene.matrix.resize(3);
+  scene.bodies.resize(2);
+  scene.sums.resize(4);
+  for (BlockWord& body : scene.bodies)
+    std::generate(body.begin(), body.end(), [&] { return word(random); });
+  const Step matrix{"add_rows", [&](const ProximalKernels& kernels, Scene& on) {
+                      BodyBlock* blocks = on.matrix.data();
+                      const bool a = which % 4 != 1, b = which % 4 != 2;
+                      kernels.add_rows(rows.data(), used,
+                                       {a ? blocks : nullptr, b ? blocks + 1 : nullptr,
+                                        a && b ? blocks + 2 : nullptr, (which >> 8) % 2 == 0});
+                    }};
+  const Step sides{"subtract_rows", [&](const ProximalKernels& kernels, Scene& on) {
+                     kernels.subtract_rows(rows.data(), used, errors.data(), on.sums[0],
+                                           on.sums[1]);
+                   }};
+  const Step products{"row_products", [&](const ProximalKernels& kernels, Scene& on) {
+                        kernels.row_products(rows.data(), used, on.bodies[0], on.bodies[1],
+                                             on.sums[2].data());
+                      }};
+  return compare(matrix, scene) + compare(sides, scene) + compare(products, scene);
+}
+
 // A column of a factor. Blocks 0 … count − 1 are below the diagonal, the last is the diagonal, and
 // between them are those that elimination changes.
 struct ColumnCase {
@@ -215,6 +248,7 @@ std::string check_proximal(std::uint64_t seed) {
     const auto contacts = static_cast<std::size_t>(random.between(0, 9));
     const Scene start = make_scene(contacts, round % 2 == 0, random);
     report += check_phase(start, random) + check_matrix(start, random);
+    report += check_rows(random);
     report += check_factor(static_cast<std::uint32_t>(random.between(0, 5)), random);
   }
   return report;

@@ -292,6 +292,46 @@ TEST(ProximalKernels, PassesEndWhereTheConditionsOfTheLeastHold) {
   EXPECT_GT(pulling, 100);
 }
 
+// The rows of a joint, of which each second is in use, against the same rows of a block.
+TEST(ProximalKernels, AddSubtractAndMultiplyTheRowsInUse) {
+  Random random;
+  for (int round = 0; round < 1000; ++round) {
+    const ProblemMaker maker{random};
+    Island island(1, maker);
+    island.move(maker);
+    ProximalBlock block = island.blocks[0];
+    BlockWord rows[2 * k_most_rows] = {}, errors[2] = {};
+    std::int64_t x[2 * k_most_rows] = {}, products[2 * k_most_rows] = {};
+    std::uint32_t used = 0;
+    block.weight.fill(k_whole_row);
+    block.active.fill(-1);
+    for (std::size_t r = 0; r < block.rows; ++r) {
+      rows[2 * r + 1] = block.by_row[r];
+      x[2 * r + 1] = random.between(-(1 << 27), 1 << 27);
+      used |= 2U << 2 * r;
+    }
+    BodyBlock found[3], expected[3];
+    const auto places = [](BodyBlock* to) { return MatrixPlaces{to, to + 1, to + 2, true}; };
+    k_kernels.add_rows(rows, used, places(found));
+    k_kernels.add_to_matrix(block, places(expected));
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(found[i], expected[i]);
+    k_kernels.subtract_rows(rows, used, x, errors[0], errors[1]);
+    for (std::size_t i = 0; i < k_sides; ++i) {
+      Exact sum = 0;
+      for (std::size_t r = 0; r < block.rows; ++r)
+        sum -= Exact{side_entry(block, r, i)} * x[2 * r + 1];
+      EXPECT_EQ(errors[i / k_body_words][i % k_body_words],
+                static_cast<std::int64_t>(rounded(sum, 30)));
+    }
+    k_kernels.row_products(rows, used, island.bodies[block.a], island.bodies[block.b], products);
+    for (std::size_t r = 0; r < block.rows; ++r) {
+      EXPECT_EQ(products[2 * r], 0);
+      EXPECT_EQ(products[2 * r + 1], static_cast<std::int64_t>(dot(island, block, r)));
+    }
+  }
+}
+
 // A direct step's system, with the matrix that the kernels gather.
 struct System {
   std::size_t size;

@@ -6,7 +6,6 @@
 
 #include "core/dynamics/contact/block_words.h"
 #include "core/dynamics/problem/proximal_words.h"
-#include "core/math/wide/scalar_lanes.h"
 
 namespace lockstone::joint_phases {
 namespace {
@@ -48,7 +47,8 @@ bool has_turned(const IslandJoint& joint, const ProximalBlock& problem,
 
 void set_lock(const ProximalLock& lock, std::size_t lane, ProximalBlock& problem) {
   for (std::size_t i = 0; i < lanes::k_body_words; ++i)
-    problem.sides[i][lane] = problem.by_row[lane][i] = lanes::scalar::pack(lock.a[i], lock.b[i]);
+    problem.sides[i][lane] = lock.row[i];
+  problem.by_row[lane] = lock.row;
   problem.give[lane] = k_lock_give;
   problem.own_part[lane] = raw::round_divide(k_whole << 30, k_whole + k_lock_give);
   problem.weight[lane] = k_whole;

@@ -206,21 +206,6 @@ void BodyFactor::add(std::uint32_t block, const RowSide& x, const RowSide& y, st
   }
 }
 
-void BodyFactor::add(std::uint32_t block, const Rows& x, const Rows& y) {
-  LKS_ASSERT(block < blocks_.size() && x.count == y.count && x.count <= k_most_rows);
-  std::int64_t sums[k_side][k_side] = {};
-  for (std::size_t r = 0; r < x.count; ++r) {
-    const RowSide &row = *x.rows[r], &column = *y.rows[r];
-    for (std::size_t j = 0; j < k_side; ++j)
-      for (std::size_t i = 0; i < k_side; ++i)
-        sums[j][i] += std::int64_t{row[i]} * column[j];
-  }
-  for (std::size_t j = 0; j < k_side; ++j)
-    for (std::size_t i = &x == &y ? j : 0; i < k_side; ++i)
-      blocks_[block].words[j][i] +=
-          raw::round_shift(sums[j][i], 2 * k_entry_bits - k_matrix_sum_bits);
-}
-
 // The greatest diagonal entry of a body bounds its block; with another body's, the block that they
 // share.
 void BodyFactor::scale(const Plan& plan) {

@@ -79,16 +79,6 @@ class BodyFactor {
   /// Adds k·xᵀ·y to a block, k in Q30; of a diagonal block only as far as the diagonal.
   void add(std::uint32_t block, const RowSide& x, const RowSide& y, std::int32_t k);
 
-  /// Sides of rows, each of a length of at most 1: sums of their products stay below 2^63.
-  static constexpr std::size_t k_most_rows = 7;
-  struct Rows {
-    std::array<const RowSide*, k_most_rows> rows{};
-    std::size_t count = 0;
-  };
-  /// Adds Σ xᵀ·y to a block, rounded once; of a diagonal block, where x is y, on and below the
-  /// diagonal.
-  void add(std::uint32_t block, const Rows& x, const Rows& y);
-
   /// The matrix's blocks, for kernels that add many rows at once; `Place` and `diagonal` name them.
   [[nodiscard]] lanes::BodyBlock& block(std::uint32_t index) { return blocks_[index]; }
 

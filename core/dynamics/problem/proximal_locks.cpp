@@ -23,14 +23,6 @@ constexpr int k_finest_bits = 44;
 // Of a group: sums of the factor have room for the rows of this many.
 constexpr std::uint32_t k_most_joints = 512;
 
-// Q30, of vectors that are within ±2^31: |row| ≤ 1, so the sum fits.
-std::int64_t row_dot(const RowSide& j, const BodyVector& u) {
-  std::int64_t sum = 0;
-  for (std::size_t i = 0; i < 6; ++i)
-    sum += j[i] * u[i];
-  return sum;
-}
-
 bool is_heavier(BlockFloat x, BlockFloat y) {
   return x.exponent != y.exponent ? x.exponent < y.exponent : x.mantissa < y.mantissa;
 }
@@ -77,8 +69,11 @@ void ProximalLocks::add_joint(const End& a, const End& b) {
 std::uint32_t ProximalLocks::end_group(std::uint32_t bodies) {
   Group& group = groups_.back();
   if (group.unit.mantissa != 0 && group.joints <= k_most_joints &&
-      factor_.plan(bodies, pairs_, group.plan))
+      factor_.plan(bodies, pairs_, group.plan)) {
+    for (Joint& joint : joints_of(group))
+      joint.mass = mass_scale(group.unit, joint.inverse_mass);
     return static_cast<std::uint32_t>(groups_.size() - 1);
+  }
   joints_.resize(group.first_joint);
   groups_.pop_back();
   return k_too_large;
@@ -98,37 +93,33 @@ void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
     return body == End::k_unpushed ? k_none : roots_[group.plan.first_column + body];
   };
   const ProximalJoint pair{root_of(joint.a), root_of(joint.b), joint.part_a, joint.part_b,
-                           mass_scale(group.unit, joint.inverse_mass)};
+                           joint.mass};
   LKS_ASSERT(rows.size() <= joint.rows.size());
   joint.count = static_cast<std::uint32_t>(rows.size());
   joint.used = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    ProximalLock& lock = joint.rows[i];
+    ProximalLock lock;
     if ((left_out >> i & 1) != 0 || !find_proximal_lock(rows[i], pair, lock)) continue;
     joint.used |= 1U << i;
+    joint.rows[i] = lock.row;
+    joint.to_speed[i] = lock.to_speed;
+    joint.to_impulse[i] = lock.to_impulse;
     joint.own[i] = (lock.to_speed * lock.to_impulse).reciprocal();
   }
 }
 
 void ProximalLocks::add_to_factor(const Group& group, const Joint& joint) {
   LKS_ASSERT(joint.count <= joint.rows.size());
-  const bool has_a = joint.a != End::k_unpushed, has_b = joint.b != End::k_unpushed;
-  const BodyFactor::Place place =
-      has_a && has_b ? factor_.find(group.plan, joint.a, joint.b) : BodyFactor::Place{};
-  BodyFactor::Rows a, b;
-  const auto add = [&] {
-    if (has_a) factor_.add(factor_.diagonal(group.plan, joint.a), a, a);
-    if (has_b) factor_.add(factor_.diagonal(group.plan, joint.b), b, b);
-    if (has_a && has_b) factor_.add(place.block, place.a_is_row ? a : b, place.a_is_row ? b : a);
-    a.count = b.count = 0;
+  const auto diagonal = [&](std::uint32_t body) {
+    return body == End::k_unpushed ? nullptr : &factor_.block(factor_.diagonal(group.plan, body));
   };
-  for (std::size_t i = 0; i < joint.count; ++i) {
-    if (!joint.uses(i)) continue;
-    a.rows[a.count++] = &joint.rows[i].a;
-    b.rows[b.count++] = &joint.rows[i].b;
-    if (a.count == BodyFactor::k_most_rows) add();
+  lanes::MatrixPlaces places{diagonal(joint.a), diagonal(joint.b), nullptr, false};
+  if (places.a != nullptr && places.b != nullptr) {
+    const BodyFactor::Place both = factor_.find(group.plan, joint.a, joint.b);
+    places.both = &factor_.block(both.block);
+    places.a_is_row = both.a_is_row;
   }
-  add();
+  lanes::proximal_kernels().add_rows(joint.rows.data(), joint.used, places);
 }
 
 void ProximalLocks::factor(std::uint32_t index) {
@@ -150,25 +141,13 @@ void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t r
 // −Jᵀ·r/γ, times 2^-14. Errors are below 2^27 units, so sums of a joint's rows fit.
 void ProximalLocks::add_changes(const Group& group, Joint& joint, int bits) {
   LKS_ASSERT(joint.count <= joint.rows.size());
-  std::array<std::int64_t, 6> a{}, b{};
-  for (std::size_t i = 0; i < joint.count; ++i) {
-    if (!joint.uses(i)) continue;
-    ProximalLock& lock = joint.rows[i];
-    const std::int64_t x = lock.to_speed.times(joint.errors[i], 50 - bits);
-    lock.impulse = x;  // the error, for set_impulses
-    for (std::size_t k = 0; k < 6; ++k) {
-      a[k] -= lock.a[k] * x;
-      b[k] -= lock.b[k] * x;
-    }
-  }
-  const auto add = [&](std::uint32_t body, const std::array<std::int64_t, 6>& sums) {
-    if (body == End::k_unpushed) return;
-    BodyVector& change = changes_[group.plan.first_column + body];
-    for (std::size_t k = 0; k < 6; ++k)
-      change[k] += raw::round_shift(sums[k], 30);
-  };
-  add(joint.a, a);
-  add(joint.b, b);
+  for (std::size_t i = 0; i < joint.count; ++i)
+    if (joint.uses(i))  // the error, for set_impulses
+      joint.impulses[i] = joint.to_speed[i].times(joint.errors[i], 50 - bits);
+  BodyVector unmoved{};
+  lanes::proximal_kernels().subtract_rows(joint.rows.data(), joint.used, joint.impulses.data(),
+                                          change_of(group, joint.a, unmoved),
+                                          change_of(group, joint.b, unmoved));
 }
 
 bool ProximalLocks::try_solve(const Group& group, int bits) {
@@ -182,19 +161,19 @@ bool ProximalLocks::try_solve(const Group& group, int bits) {
 }
 
 // −(r + J·x)/γ.
-void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) const {
+void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) {
+  LKS_ASSERT(joint.count <= joint.rows.size());
+  ByRow<std::int64_t> products{};
+  BodyVector unmoved{};
+  lanes::proximal_kernels().row_products(joint.rows.data(), joint.used,
+                                         change_of(group, joint.a, unmoved),
+                                         change_of(group, joint.b, unmoved), products.data());
   for (std::size_t i = 0; i < joint.count; ++i) {
-    ProximalLock& lock = joint.rows[i];
-    LKS_ASSERT(i < joint.rows.size());
-    const std::int64_t error = std::exchange(lock.impulse, 0);
+    const std::int64_t error = std::exchange(joint.impulses[i], 0);
     if (!joint.uses(i)) continue;
-    std::int64_t left = error * k_one;
-    if (joint.a != End::k_unpushed)
-      left += row_dot(lock.a, changes_[group.plan.first_column + joint.a]);
-    if (joint.b != End::k_unpushed)
-      left += row_dot(lock.b, changes_[group.plan.first_column + joint.b]);
+    const std::int64_t left = error * k_one + products[i];
     const std::int64_t impulse = -raw::round_shift(left, 30 - k_lock_give_bits);
-    lock.impulse = bounded(lock.to_impulse.times(impulse, bits - 50), k_row_bound);
+    joint.impulses[i] = bounded(joint.to_impulse[i].times(impulse, bits - 50), k_row_bound);
   }
 }
 
@@ -206,7 +185,7 @@ int ProximalLocks::coarsest_bits(const Group& group) {
     for (std::size_t i = 0; i < joint.count; ++i)
       if (joint.uses(i))
         most = std::max(most, static_cast<int>(std::bit_width(magnitude(joint.errors[i]))) + 31 -
-                                  joint.rows[i].to_speed.shift);
+                                  joint.to_speed[i].shift);
   return 50 - most;
 }
 

@@ -68,19 +68,25 @@ class ProximalLocks {
 
   /// The pair's velocity jump, Q50.
   [[nodiscard]] std::int64_t impulse(std::uint32_t group, std::uint32_t joint, std::size_t row) {
-    return joints_[groups_[group].first_joint + joint].rows[row].impulse;
+    return joints_[groups_[group].first_joint + joint].impulses[row];
   }
 
  private:
+  template <class T>
+  using ByRow = std::array<T, k_max_joint_rows>;
+
   struct Joint {
     std::uint32_t a = End::k_unpushed, b = End::k_unpushed;
     std::int64_t part_a = 0, part_b = 0;  // roots of shares of the pair's inverse mass, Q30
     BlockFloat inverse_mass{};            // of the pair
+    RowScale mass;                        // its root as a part of the group's unit
     std::uint32_t count = 0;              // of rows
     std::uint32_t used = 0;               // a bit for each row that may get an impulse
-    std::array<ProximalLock, k_max_joint_rows> rows{};
-    std::array<RowScale, k_max_joint_rows> own{};  // response of a row to itself
-    std::array<std::int64_t, k_max_joint_rows> errors{};
+    ByRow<lanes::BlockWord> rows{};       // as the kernels have them
+    ByRow<RowScale> to_speed{}, to_impulse{};
+    ByRow<RowScale> own{};  // response of a row to itself
+    ByRow<std::int64_t> errors{};
+    ByRow<std::int64_t> impulses{};  // the pair's velocity jump, m/s, Q50
 
     [[nodiscard]] bool uses(std::size_t row) const { return (used >> row & 1) != 0; }
   };
@@ -94,11 +100,15 @@ class ProximalLocks {
   [[nodiscard]] std::span<Joint> joints_of(const Group& group) {
     return std::span(joints_).subspan(group.first_joint, group.joints);
   }
+  // The change of a body's velocity; `unmoved` for one that no impulse moves.
+  [[nodiscard]] BodyVector& change_of(const Group& group, std::uint32_t body, BodyVector& unmoved) {
+    return body == End::k_unpushed ? unmoved : changes_[group.plan.first_column + body];
+  }
   void add_to_factor(const Group& group, const Joint& joint);
   [[nodiscard]] int coarsest_bits(const Group& group);
   [[nodiscard]] bool try_solve(const Group& group, int bits);
   void add_changes(const Group& group, Joint& joint, int bits);
-  void set_impulses(const Group& group, Joint& joint, int bits) const;
+  void set_impulses(const Group& group, Joint& joint, int bits);
 
   std::vector<Group> groups_;
   std::vector<Joint> joints_;  // group by group

@@ -71,7 +71,17 @@ std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& an
   return side;
 }
 
+// Sums of twelve squares of entries up to 1 fit in 64 bits.
 std::int64_t length_of(const Sides& sides) {
+  std::uint64_t most = 0, squares = 0;
+  for (const std::array<std::int64_t, 6>& side : {sides.a, sides.b}) {
+    for (const std::int64_t x : side) {
+      most = std::max(most, magnitude(x));
+      squares += magnitude(x) * magnitude(x);
+    }
+  }
+  if (most <= static_cast<std::uint64_t>(k_whole_q30))
+    return static_cast<std::int64_t>(isqrt_rounded(squares));
   UInt128 sum{};
   const auto add = [&](std::int64_t x) { sum = sum + multiply_wide(magnitude(x), magnitude(x)); };
   for (const std::int64_t x : sides.a)
@@ -84,6 +94,11 @@ std::int64_t length_of(const Sides& sides) {
 // Over a length that is not less, Q30; `inverse` is 2^62 over that.
 std::int64_t scaled_entry(std::int64_t from, std::int64_t inverse) {
   return std::clamp(raw::round_shift(from * inverse, 32), -k_whole_q30, k_whole_q30);
+}
+
+// An entry of both sides, as a word of the problem.
+std::int64_t scaled_pair(const Sides& sides, std::size_t i, std::int64_t inverse) {
+  return lanes::scalar::pack(scaled_entry(sides.a[i], inverse), scaled_entry(sides.b[i], inverse));
 }
 
 // The pair that rows are found for.
@@ -107,11 +122,8 @@ void set_row(const Pair& pair, const ContactRow& from, const Sides& sides, std::
              std::size_t index) {
   LKS_ASSERT(length > 0 && index < k_contact_rows);
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;
-  for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
-    const std::int64_t both =
-        lanes::scalar::pack(scaled_entry(sides.a[i], inverse), scaled_entry(sides.b[i], inverse));
-    pair.problem.sides[i][index] = pair.problem.by_row[index][i] = both;
-  }
+  for (std::size_t i = 0; i < lanes::k_body_words; ++i)
+    pair.problem.sides[i][index] = pair.problem.by_row[index][i] = scaled_pair(sides, i, inverse);
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
   ProximalRow& row = pair.contact.all[index];
   const RowScale from_impulse = pair.mass * norm;
@@ -210,10 +222,8 @@ bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, Proxima
   const std::int64_t length = length_of(sides);
   if (length < k_least_length) return false;
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;
-  for (std::size_t i = 0; i < 6; ++i) {
-    lock.a[i] = static_cast<std::int32_t>(scaled_entry(sides.a[i], inverse));
-    lock.b[i] = static_cast<std::int32_t>(scaled_entry(sides.b[i], inverse));
-  }
+  for (std::size_t i = 0; i < lanes::k_body_words; ++i)
+    lock.row[i] = scaled_pair(sides, i, inverse);
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
   lock.to_speed = joint.mass * norm.reciprocal();
   lock.to_impulse = (joint.mass * norm).reciprocal();

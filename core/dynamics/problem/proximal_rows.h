@@ -73,9 +73,8 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
 
 /// A lock or motor of a joint, as its island's problem has it.
 struct ProximalLock {
-  RowSide a{}, b{};               // Q30; 0 of a body that nothing pushes
+  lanes::BlockWord row{};         // low: of A, high: of B, Q30; 0 of a body that nothing pushes
   RowScale to_speed, to_impulse;  // as ProximalRow's
-  std::int64_t impulse = 0;       // the pair's velocity jump, m/s, Q50
 };
 
 /// Data that all rows of a joint share.

@@ -136,6 +136,15 @@ struct ProximalKernels {
   void (*couple)(ProximalBlock& block);
   /// Adds Σ weight·Jᵀ·J of the active rows to sums, Q50.
   void (*add_to_matrix)(const ProximalBlock& block, const MatrixPlaces& places);
+  /// Adds Σ Jᵀ·J of rows to sums, Q50. `rows` has a word each, components in lanes; low: of A,
+  /// high: of B, Q30. A bit of `used` stands for each row that counts.
+  void (*add_rows)(const BlockWord* rows, std::uint32_t used, const MatrixPlaces& places);
+  /// Subtracts Jᵀ·x of such rows from both bodies, rounded once; |x| ≤ 2^28.
+  void (*subtract_rows)(const BlockWord* rows, std::uint32_t used, const std::int64_t* x,
+                        BlockWord& a, BlockWord& b);
+  /// J·u of such rows, Q30, by row; others are left alone.
+  void (*row_products)(const BlockWord* rows, std::uint32_t used, const BlockWord& a,
+                       const BlockWord& b, std::int64_t* products);
   /// Computes the blocks under a factored diagonal, and takes their products from the blocks to
   /// their right.
   void (*eliminate)(BodyBlock* blocks, const FactorColumn& column, const BodyBlock& diagonal,

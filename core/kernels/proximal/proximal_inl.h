@@ -8,6 +8,7 @@
 
 #include "core/kernels/proximal/proximal_block.h"
 #include "core/kernels/proximal/proximal_friction.h"
+#include "core/math/wide/scalar_lanes.h"
 #ifdef LKS_SCALAR_TWIN
 #include "core/math/wide/lanes_scalar_inl.h"
 #else
@@ -42,6 +43,15 @@ HWY_INLINE HWY_ATTR std::uint64_t all_bits(Lanes x) {
   for (const std::int64_t word : words)
     bits |= word;
   return static_cast<std::uint64_t>(bits);
+}
+
+HWY_INLINE HWY_ATTR std::int64_t sum_of(Lanes x) {
+  std::int64_t words[k_lanes];
+  store(x, words);
+  std::int64_t sum = 0;
+  for (const std::int64_t word : words)
+    sum = scalar::add(sum, word);
+  return sum;
 }
 
 /// J·u of the rows in lanes, Q30.

@@ -6,6 +6,8 @@
 #define LKS_WIDE_PROXIMAL_MATRIX_INL_H
 #endif
 
+#include <bit>
+
 #include "core/kernels/proximal/proximal_inl.h"
 #include "core/math/wide/scalar_lanes.h"
 
@@ -42,14 +44,21 @@ struct WeightedRows {
 
 /// Adds the products of rows, of the body whose rows are lanes, and weighted ones, of the body
 /// whose columns are words. At most seven: sums of products stay below 2^63.
-HWY_INLINE HWY_ATTR void add_products(const WeightedRows& rows, const WeightedRows& columns,
-                                      BodyBlock& block) {
+HWY_INLINE HWY_ATTR void add_products(const BlockWord* rows, const BlockWord* columns,
+                                      std::size_t count, BodyBlock& block) {
+  constexpr std::size_t k_parts = k_block_lanes / k_lanes;
   for (std::size_t k = 0; k < k_body_words; ++k) {
-    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      Lanes sum = broadcast(0);
-      for (std::size_t r = 0; r < rows.count; ++r)
-        sum = multiply_add(sum, load(&rows.rows[r][lane]), broadcast(columns.weighted[r][k]));
-      store(add(load(&block.words[k][lane]), round_shift<10>(sum)), &block.words[k][lane]);
+    Lanes sums[k_parts];
+    for (Lanes& sum : sums)
+      sum = broadcast(0);
+    for (std::size_t r = 0; r < count; ++r) {
+      const Lanes by = broadcast(columns[r][k]);
+      for (std::size_t part = 0; part < k_parts; ++part)
+        sums[part] = multiply_add(sums[part], load(&rows[r][part * k_lanes]), by);
+    }
+    for (std::size_t part = 0; part < k_parts; ++part) {
+      std::int64_t* to = &block.words[k][part * k_lanes];
+      store(add(load(to), round_shift<10>(sums[part])), to);
     }
   }
 }
@@ -68,10 +77,61 @@ HWY_ATTR void add_to_matrix(const ProximalBlock& block, const MatrixPlaces& plac
     ++of_b.count;
   }
   if (of_a.count == 0) return;
-  if (places.a != nullptr) add_products(of_a, of_a, *places.a);
-  if (places.b != nullptr) add_products(of_b, of_b, *places.b);
+  const std::size_t count = of_a.count;
+  if (places.a != nullptr) add_products(of_a.rows, of_a.weighted, count, *places.a);
+  if (places.b != nullptr) add_products(of_b.rows, of_b.weighted, count, *places.b);
   if (places.both == nullptr) return;
-  add_products(places.a_is_row ? of_a : of_b, places.a_is_row ? of_b : of_a, *places.both);
+  const WeightedRows &rows = places.a_is_row ? of_a : of_b,
+                     &columns = places.a_is_row ? of_b : of_a;
+  add_products(rows.rows, columns.weighted, count, *places.both);
+}
+
+HWY_ATTR void add_rows(const BlockWord* rows, std::uint32_t used, const MatrixPlaces& places) {
+  BlockWord a[k_most_rows], b[k_most_rows];
+  while (used != 0) {
+    std::size_t count = 0;
+    for (; used != 0 && count < k_most_rows; used &= used - 1, ++count) {
+      const BlockWord& row = rows[std::countr_zero(used)];
+      for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+        const Lanes both = load(&row[lane]);
+        store(both, &a[count][lane]);
+        store(upper(both), &b[count][lane]);
+      }
+    }
+    if (places.a != nullptr) add_products(a, a, count, *places.a);
+    if (places.b != nullptr) add_products(b, b, count, *places.b);
+    if (places.both == nullptr) continue;
+    add_products(places.a_is_row ? a : b, places.a_is_row ? b : a, count, *places.both);
+  }
+}
+
+HWY_ATTR void subtract_rows(const BlockWord* rows, std::uint32_t used, const std::int64_t* x,
+                            BlockWord& a, BlockWord& b) {
+  for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+    Lanes of_a = broadcast(0), of_b = broadcast(0);
+    for (std::uint32_t left = used; left != 0; left &= left - 1) {
+      const auto r = static_cast<std::size_t>(std::countr_zero(left));
+      const Lanes row = load(&rows[r][lane]), by = broadcast(x[r]);
+      of_a = multiply_subtract(of_a, row, by);
+      of_b = multiply_subtract(of_b, upper(row), by);
+    }
+    store(add(load(&a[lane]), round_shift<30>(of_a)), &a[lane]);
+    store(add(load(&b[lane]), round_shift<30>(of_b)), &b[lane]);
+  }
+}
+
+HWY_ATTR void row_products(const BlockWord* rows, std::uint32_t used, const BlockWord& a,
+                           const BlockWord& b, std::int64_t* products) {
+  for (; used != 0; used &= used - 1) {
+    const auto r = static_cast<std::size_t>(std::countr_zero(used));
+    Lanes sum = broadcast(0);
+    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+      const Lanes row = load(&rows[r][lane]);
+      sum = multiply_add(sum, row, load(&a[lane]));
+      sum = multiply_add(sum, upper(row), load(&b[lane]));
+    }
+    products[r] = sum_of(sum);
+  }
 }
 
 /// X·Gᵀ = sums, G the factor of the diagonal, row by row in lanes.
