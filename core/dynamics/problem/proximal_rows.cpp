@@ -73,15 +73,15 @@ std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& an
 
 // Sums of twelve squares of entries up to 1 fit in 64 bits.
 std::int64_t length_of(const Sides& sides) {
-  std::uint64_t most = 0, squares = 0;
-  for (const std::array<std::int64_t, 6>& side : {sides.a, sides.b}) {
-    for (const std::int64_t x : side) {
-      most = std::max(most, magnitude(x));
-      squares += magnitude(x) * magnitude(x);
-    }
+  std::int64_t most = 0;
+  std::uint64_t squares = 0;
+  for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
+    const std::int64_t a = sides.a[i], b = sides.b[i];
+    most = std::max({most, a, -a, b, -b});
+    squares += static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(a) +
+               static_cast<std::uint64_t>(b) * static_cast<std::uint64_t>(b);
   }
-  if (most <= static_cast<std::uint64_t>(k_whole_q30))
-    return static_cast<std::int64_t>(isqrt_rounded(squares));
+  if (most <= k_whole_q30) return static_cast<std::int64_t>(isqrt_rounded(squares));
   UInt128 sum{};
   const auto add = [&](std::int64_t x) { sum = sum + multiply_wide(magnitude(x), magnitude(x)); };
   for (const std::int64_t x : sides.a)

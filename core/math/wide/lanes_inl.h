@@ -167,21 +167,36 @@ HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x, Lanes shift, Lanes half) {
   return hn::BitCast(k_words, shift_right_each(moved, hn::BitCast(Bits(), shift)));
 }
 
+// AVX2 and older have no arithmetic shift of words: there a word moves up by 2^63 first, is shifted
+// logically, and moves down by as much of that as is left.
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4
+inline constexpr bool k_shifts_logically = true;
+#else
+inline constexpr bool k_shifts_logically = false;
+#endif
+inline constexpr std::uint64_t k_word_middle = std::uint64_t{1} << 63;
+
 template <int shift>
 HWY_INLINE HWY_ATTR Lanes round_shift(Lanes x) {
   const auto u = hn::BitCast(Bits(), x);
-  const auto half = hn::Set(Bits(), std::uint64_t{1} << (shift - 1));
-  const auto moved = hn::Sub(hn::Add(u, half), hn::ShiftRight<63>(u));
-  return hn::ShiftRight<shift>(hn::BitCast(k_words, moved));
+  constexpr std::uint64_t k_half = std::uint64_t{1} << (shift - 1);
+  if constexpr (k_shifts_logically) {
+    const auto raised = hn::Add(u, hn::Set(Bits(), k_half + k_word_middle));
+    const auto size = hn::ShiftRight<shift>(hn::Sub(raised, hn::ShiftRight<63>(u)));
+    return hn::BitCast(k_words, hn::Sub(size, hn::Set(Bits(), k_word_middle >> shift)));
+  } else {
+    const auto moved = hn::Sub(hn::Add(u, hn::Set(Bits(), k_half)), hn::ShiftRight<63>(u));
+    return hn::ShiftRight<shift>(hn::BitCast(k_words, moved));
+  }
 }
 
-/// Every lane by a shift of its own; `half` is 2^(shift − 1). AVX2 has no arithmetic shift.
+/// Every lane by a shift of its own; `half` is 2^(shift − 1).
 HWY_INLINE HWY_ATTR Lanes round_shift(Lanes x, Lanes shift, Lanes half) {
-  const auto u = hn::BitCast(Bits(), x);
+  const auto u = hn::BitCast(Bits(), x), shifts = hn::BitCast(Bits(), shift);
   const auto moved = hn::Sub(hn::Add(u, hn::BitCast(Bits(), half)), hn::ShiftRight<63>(u));
-  const auto sign = hn::BitCast(Bits(), hn::BroadcastSignBit(hn::BitCast(k_words, moved)));
-  const auto size = shift_right_each(hn::Xor(moved, sign), hn::BitCast(Bits(), shift));
-  return hn::BitCast(k_words, hn::Xor(size, sign));
+  const auto middle = hn::Set(Bits(), k_word_middle);
+  const auto size = shift_right_each(hn::Xor(moved, middle), shifts);
+  return hn::BitCast(k_words, hn::Sub(size, shift_right_each(middle, shifts)));
 }
 
 HWY_INLINE HWY_ATTR Lanes bit_and(Lanes a, Lanes b) {
