@@ -37,6 +37,31 @@ std::int64_t clamped(std::int64_t x, std::int64_t& excess) {
   return result;
 }
 
+// Keeps words of a solution within their range.
+struct ClampedWords {
+  std::int64_t excess = 0;
+
+  std::int64_t operator()(std::int64_t x) { return clamped(x, excess); }
+  [[nodiscard]] bool fit() const { return excess == 0; }
+};
+
+// The same of words that all fit, in less time: it only looks whether they do, but for the last
+// step of the range, which counts as outside.
+struct FittingWords {
+  std::int64_t bits = 0;
+
+  std::int64_t operator()(std::int64_t x) {
+    bits |= lanes::scalar::add(x ^ (x >> 63), 1);
+    return x;
+  }
+  [[nodiscard]] bool fit() const { return bits >> 31 == 0; }
+};
+
+// Wraps: words that do not fit are found out afterwards.
+std::int64_t product(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b));
+}
+
 // Times 2^bits: the scale of the rows leaves no entry above 1.
 void grow(lanes::BodyBlock& block, int bits) {
   for (lanes::BlockWord& word : block.words)
@@ -272,35 +297,42 @@ void BodyFactor::factor(const Plan& plan) {
   }
 }
 
-void BodyFactor::solve_down(const Plan& plan, bool& fits) {
+// Times the reciprocal of pivot i.
+std::int64_t divided(const lanes::FactorColumn& column, std::size_t i, std::int64_t x) {
+  return lanes::scalar::round_shift(product(x, column.mantissas[i]), column.shifts[i]);
+}
+
+template <class Keep>
+bool BodyFactor::solve_down(const Plan& plan, Keep keep) {
+  using lanes::scalar::round_shift, lanes::scalar::subtract;
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
   LKS_ASSERT(plan.first_column + plan.bodies <= columns_.size());
   BodyVector* const rows = x_.data() + plan.first_column;
-  std::int64_t excess = 0;
+  bool fits = true;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     const Column& column = columns_[plan.first_column + k];
     const Block& diagonal = blocks_[plan.first_block + k];
     BodyVector& x = rows[k];
     std::array<std::int64_t, k_side> sums{};
     for (std::size_t j = 0; j < k_side; ++j) {
-      const std::int64_t remainder =
-          clamped(x[j] - raw::round_shift(sums[j], k_entry_bits), excess);
-      x[j] = clamped(times_pivot(column, j, remainder), excess);
+      const std::int64_t rest = keep(subtract(x[j], round_shift(sums[j], k_entry_bits)));
+      x[j] = keep(divided(column, j, rest));
       for (std::size_t i = j + 1; i < k_side; ++i)
-        sums[i] += diagonal.words[j][i] * x[j];
+        sums[i] = lanes::scalar::add(sums[i], product(diagonal.words[j][i], x[j]));
     }
     if (column.count == 0) continue;
     fits =
         kernels.solve_down(blocks_.data(), column, below_.data() + column.first, x, rows) && fits;
   }
-  fits = fits && excess == 0;
+  return fits && keep.fit();
 }
 
-void BodyFactor::solve_up(const Plan& plan, bool& fits) {
+template <class Keep>
+bool BodyFactor::solve_up(const Plan& plan, Keep keep) {
+  using lanes::scalar::round_shift, lanes::scalar::subtract;
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
   LKS_ASSERT(plan.first_column + plan.bodies <= columns_.size());
   BodyVector* const rows = x_.data() + plan.first_column;
-  std::int64_t excess = 0;
   for (std::uint32_t k = plan.bodies; k-- > 0;) {
     const Column& column = columns_[plan.first_column + k];
     const Block& diagonal = blocks_[plan.first_block + k];
@@ -311,12 +343,12 @@ void BodyFactor::solve_up(const Plan& plan, bool& fits) {
     for (std::size_t i = k_side; i-- > 0;) {
       std::int64_t sum = 0;
       for (std::size_t j = i + 1; j < k_side; ++j)
-        sum += diagonal.words[i][j] * x[j];
-      const std::int64_t remainder = x[i] - sums[i] - raw::round_shift(sum, k_entry_bits);
-      x[i] = clamped(times_pivot(column, i, clamped(remainder, excess)), excess);
+        sum = lanes::scalar::add(sum, product(diagonal.words[i][j], x[j]));
+      const std::int64_t rest = subtract(subtract(x[i], sums[i]), round_shift(sum, k_entry_bits));
+      x[i] = keep(divided(column, i, keep(rest)));
     }
   }
-  fits = fits && excess == 0;
+  return keep.fit();
 }
 
 // Scales the words of a body by 2^-scale. Words that fit afterwards need no clamp.
@@ -337,8 +369,8 @@ void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
   fits = fits && excess == 0;
 }
 
-bool BodyFactor::solve(const Plan& plan, std::span<BodyVector> b) {
-  LKS_ASSERT(b.size() == plan.bodies);
+template <class Keep>
+bool BodyFactor::try_solve(const Plan& plan, std::span<BodyVector> b) {
   bool fits = true;
   BodyVector* const rows = x_.data() + plan.first_column;
   const Column* const columns = columns_.data() + plan.first_column;
@@ -346,8 +378,15 @@ bool BodyFactor::solve(const Plan& plan, std::span<BodyVector> b) {
     rows[k] = b[columns[k].body];
     scale_words(rows[k], columns[k].scale, fits);
   }
-  solve_down(plan, fits);
-  solve_up(plan, fits);
+  fits = solve_down(plan, Keep()) && fits;
+  return solve_up(plan, Keep()) && fits;
+}
+
+bool BodyFactor::solve(const Plan& plan, std::span<BodyVector> b) {
+  LKS_ASSERT(b.size() == plan.bodies);
+  bool fits = try_solve<FittingWords>(plan, b) || try_solve<ClampedWords>(plan, b);
+  const BodyVector* const rows = x_.data() + plan.first_column;
+  const Column* const columns = columns_.data() + plan.first_column;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     BodyVector& x = b[columns[k].body];
     x = rows[k];

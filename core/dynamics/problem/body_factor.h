@@ -108,8 +108,12 @@ class BodyFactor {
   [[nodiscard]] static std::int64_t times_pivot(const Column& column, std::size_t i,
                                                 std::int64_t x);
   static void scale_words(BodyVector& words, int scale, bool& fits);
-  void solve_down(const Plan& plan, bool& fits);
-  void solve_up(const Plan& plan, bool& fits);
+  template <class Keep>
+  [[nodiscard]] bool solve_down(const Plan& plan, Keep keep);
+  template <class Keep>
+  [[nodiscard]] bool solve_up(const Plan& plan, Keep keep);
+  template <class Keep>
+  [[nodiscard]] bool try_solve(const Plan& plan, std::span<BodyVector> b);
 
   std::vector<Column> columns_;
   std::vector<std::uint32_t> places_;  // of a body in the order
