@@ -120,7 +120,7 @@ JointPose pose_after(const JointRun& run, LinkedBody& body) {
     if (body.centred && !body.moves_first) velocity -= solver.gain[axis] * (1 << 17);
     after.position[i].raw += raw::round_shift(body.rate.quotient(velocity), 18);
   }
-  if (row.spin == std::array<std::int64_t, 3>{} || !body.record->rotates()) return after;
+  if ((row.spin[0] | row.spin[1] | row.spin[2]) == 0 || !body.record->rotates()) return after;
   const std::array<std::int64_t, 3> spin = {moving_speed(row.spin[0]), moving_speed(row.spin[1]),
                                             moving_speed(row.spin[2])};
   const int scale = body.record->scale_exponent;
