@@ -182,15 +182,26 @@ void PhaseSolver::sum_changes() {
   fits_ = clamp_all(sums.first(body_count())) && fits && fits_;
 }
 
+// How D changes along the step at hand, at first.
+PhaseSolver::Slope PhaseSolver::slope() const {
+  Slope result;
+  for (const Problem& problem : island_.problems) {
+    for (std::size_t i = 0; i < problem.rows; ++i) {
+      const std::int64_t change = problem.next[i] - problem.impulse[i];
+      result.changes += magnitude(change);
+      result.sum.add(within_units(change), problem.residual[i]);
+    }
+  }
+  return result;
+}
+
 // The part of the step at which D is least.
-std::int64_t PhaseSolver::search() const {
+std::int64_t PhaseSolver::search(const ProductSum& slope) const {
   constexpr std::int64_t k_scale = std::int64_t{1} << lanes::k_residual_point;
-  ProductSum slope, curve;
+  ProductSum curve;
   for (const Problem& problem : island_.problems) {
     for (std::size_t i = 0; i < problem.rows; ++i) {
       const std::int64_t change = within_units(problem.next[i] - problem.impulse[i]);
-      if (change == 0) continue;
-      slope.add(change, problem.residual[i]);
       LKS_ASSERT(problem.give[i] >= 0);
       curve.add(problem.give[i] * change, change);
     }
@@ -238,8 +249,15 @@ bool PhaseSolver::direct_step() {
       problems.data(), problems.size(), drop_, island_.changes.data());
   is_solved_ = result.done;
   fits_ = fits_ && result.fits;
+  if (is_solved_) {
+    sum_changes();
+    go(k_whole);
+    return true;
+  }
+  const Slope along = slope();
+  if (along.rises()) return false;
   sum_changes();
-  const std::int64_t part = is_solved_ ? k_whole : search();
+  const std::int64_t part = search(along.sum);
   if (part == 0) return false;
   go(part);
   return true;

@@ -19,6 +19,7 @@
 
 #include "core/dynamics/direct/island_pool.h"
 #include "core/dynamics/problem/body_factor.h"
+#include "core/math/product_sum.h"
 
 namespace lockstone {
 
@@ -35,6 +36,17 @@ class PhaseSolver {
   void solve(bool scales);
 
  private:
+  struct Slope {
+    ProductSum sum;
+    std::uint64_t changes = 0;  // the sum of their magnitudes
+
+    /// Whether the step goes nowhere, because D does not fall. Changes of velocities need not be
+    /// summed then: they fit, since no entry of a row is above 1.
+    [[nodiscard]] bool rises() const {
+      return changes < lanes::k_most_unit / 2 && sum.rounded(1) >= 0;
+    }
+  };
+
   [[nodiscard]] bool converge(bool scales);
   void scale_warm_start();
   void iterate();
@@ -46,7 +58,8 @@ class PhaseSolver {
   void find_residuals();
   [[nodiscard]] bool solve_for_changes();
   void sum_changes();
-  [[nodiscard]] std::int64_t search() const;
+  [[nodiscard]] Slope slope() const;
+  [[nodiscard]] std::int64_t search(const ProductSum& slope) const;
   void go(std::int64_t part);
 
   [[nodiscard]] std::size_t body_count() const { return island_.bodies.size(); }
