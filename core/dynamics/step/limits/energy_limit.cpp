@@ -45,7 +45,7 @@ void EnergyLimit::reserve(std::size_t body_capacity) {
 }
 
 void EnergyLimit::begin(const Bodies& all) {
-  watches_ = false;
+  watches_ = knows_now_ = false;
   count_ = 0;
   if (!all.joints.has_own()) return;
   starts_.resize(all.numbers.count());
@@ -77,9 +77,10 @@ void EnergyLimit::for_watched(const Bodies& all, const Visit& visit) {
 void EnergyLimit::note(const Bodies& all) {
   LKS_ASSERT(watches_);
   for (Island& island : islands_)
-    island.first = 0;
+    island.first = knows_now_ ? island.now : 0;
   for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
     starts_[i] = velocity_of_row(all.rows[i].velocity);
+    if (knows_now_) return;
     island.first = raw::saturating_add(island.first, scale_saturating(row_energy(all, i), mass, 0));
   });
 }
@@ -139,7 +140,9 @@ void EnergyLimit::limit_moves(const Bodies& all) {
   scale(all);
 }
 
+// The next substep begins as this one ends.
 void EnergyLimit::limit_gains(const Bodies& all) {
+  const std::uint32_t before = count_;
   sum(all);
   for (Island& island : islands_) {
     island.gained = raw::saturating_add(island.gained, island.change);
@@ -148,7 +151,8 @@ void EnergyLimit::limit_gains(const Bodies& all) {
     take(island, island.gained);
     island.gained = 0;
   }
-  scale(all);
+  knows_now_ = count_ == before;
+  if (!knows_now_) scale(all);
 }
 
 }  // namespace lockstone

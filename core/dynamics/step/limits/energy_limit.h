@@ -72,6 +72,7 @@ class EnergyLimit {
   std::vector<Island> islands_;
   std::vector<Vec3<Velocity>> starts_;  // velocities at the beginning of the substep, if watched
   bool watches_ = false;
+  bool knows_now_ = false;  // `now` holds, since no energy was taken away after it was summed
   std::uint32_t count_ = 0;
 };
 
