@@ -229,6 +229,8 @@ bool are_small(const RowWords& moved) {
 
 void begin(const ContactRun& run, const IslandView& island, std::int64_t weight, int substeps) {
   island.state.unit = find_unit(run, island);
+  for (IslandJoint& joint : island.joints)
+    joint.mass = mass_scale(island.state.unit, joint.inverse_mass);
   for (std::size_t i = 0; i < island.bodies.size(); ++i)
     island.roots[i] = inertia_root(run.bodies[island.bodies[i]].inverse_inertia);
   island.roots[island.bodies.size()] = {};

@@ -129,8 +129,7 @@ void update(const ContactRun& run, const JointAccess& access, const IslandView& 
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (reads) {
       const ProximalJoint pair{island.roots[problems[i].a], island.roots[problems[i].b],
-                               joints[i].part_a, joints[i].part_b,
-                               mass_scale(island.state.unit, joints[i].inverse_mass)};
+                               joints[i].part_a, joints[i].part_b, joints[i].mass};
       read_joint(access.joints.rows(joints[i].joint), pair, joints[i], problems[i]);
     }
     measure_joint(access, joints[i], problems[i], pushes_out);
