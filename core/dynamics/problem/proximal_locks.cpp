@@ -7,6 +7,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/joint/joint_numbers.h"
+#include "core/math/wide/scalar_lanes.h"
 
 namespace lockstone {
 namespace {
@@ -84,6 +85,15 @@ void ProximalLocks::set_inertia(std::uint32_t group, std::uint32_t body,
   roots_[groups_[group].plan.first_column + body] = inertia_root(inertia);
 }
 
+void ProximalLocks::Joint::set_row(std::size_t row, const ProximalLock& lock) {
+  const auto word_of = [](const RowScale& scale) {
+    return lanes::scalar::pack(scale.mantissa, scale.shift);
+  };
+  rows[row] = lock.row;
+  rows[row][6] = word_of(lock.to_speed);
+  rows[row][7] = word_of(lock.to_impulse);
+}
+
 void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
                              std::span<const JointRow> rows, std::uint32_t left_out) {
   static constexpr InertiaRoot k_none{};
@@ -101,9 +111,7 @@ void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
     ProximalLock lock;
     if ((left_out >> i & 1) != 0 || !find_proximal_lock(rows[i], pair, lock)) continue;
     joint.used |= 1U << i;
-    joint.rows[i] = lock.row;
-    joint.to_speed[i] = lock.to_speed;
-    joint.to_impulse[i] = lock.to_impulse;
+    joint.set_row(i, lock);
     joint.own[i] = (lock.to_speed * lock.to_impulse).reciprocal();
   }
 }
@@ -143,7 +151,7 @@ void ProximalLocks::add_changes(const Group& group, Joint& joint, int bits) {
   LKS_ASSERT(joint.count <= joint.rows.size());
   for (std::size_t i = 0; i < joint.count; ++i)
     if (joint.uses(i))  // the error, for set_impulses
-      joint.impulses[i] = joint.to_speed[i].times(joint.errors[i], 50 - bits);
+      joint.impulses[i] = joint.to_speed(i).times(joint.errors[i], 50 - bits);
   BodyVector unmoved{};
   lanes::proximal_kernels().subtract_rows(joint.rows.data(), joint.used, joint.impulses.data(),
                                           change_of(group, joint.a, unmoved),
@@ -173,7 +181,7 @@ void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) {
     if (!joint.uses(i)) continue;
     const std::int64_t left = error * k_one + products[i];
     const std::int64_t impulse = -raw::round_shift(left, 30 - k_lock_give_bits);
-    joint.impulses[i] = bounded(joint.to_impulse[i].times(impulse, bits - 50), k_row_bound);
+    joint.impulses[i] = bounded(joint.to_impulse(i).times(impulse, bits - 50), k_row_bound);
   }
 }
 
@@ -185,7 +193,7 @@ int ProximalLocks::coarsest_bits(const Group& group) {
     for (std::size_t i = 0; i < joint.count; ++i)
       if (joint.uses(i))
         most = std::max(most, static_cast<int>(std::bit_width(magnitude(joint.errors[i]))) + 31 -
-                                  joint.to_speed[i].shift);
+                                  joint.to_speed(i).shift);
   return 50 - most;
 }
 

@@ -82,13 +82,18 @@ class ProximalLocks {
     RowScale mass;                        // its root as a part of the group's unit
     std::uint32_t count = 0;              // of rows
     std::uint32_t used = 0;               // a bit for each row that may get an impulse
-    ByRow<lanes::BlockWord> rows{};       // as the kernels have them
-    ByRow<RowScale> to_speed{}, to_impulse{};
-    ByRow<RowScale> own{};  // response of a row to itself
+    ByRow<lanes::BlockWord> rows{};       // as the kernels have them, and two scales
+    ByRow<RowScale> own{};                // response of a row to itself
     ByRow<std::int64_t> errors{};
     ByRow<std::int64_t> impulses{};  // the pair's velocity jump, m/s, Q50
 
     [[nodiscard]] bool uses(std::size_t row) const { return (used >> row & 1) != 0; }
+    void set_row(std::size_t row, const ProximalLock& lock);
+    [[nodiscard]] RowScale to_speed(std::size_t row) const { return scale_in(rows[row][6]); }
+    [[nodiscard]] RowScale to_impulse(std::size_t row) const { return scale_in(rows[row][7]); }
+    [[nodiscard]] static RowScale scale_in(std::int64_t word) {
+      return {static_cast<std::uint32_t>(word), static_cast<std::int32_t>(word >> 32)};
+    }
   };
   struct Group {
     BodyFactor::Plan plan;

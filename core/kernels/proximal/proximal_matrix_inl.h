@@ -86,6 +86,11 @@ HWY_ATTR void add_to_matrix(const ProximalBlock& block, const MatrixPlaces& plac
   add_products(rows.rows, columns.weighted, count, *places.both);
 }
 
+/// Words behind the components.
+HWY_INLINE HWY_ATTR void clear_rest(BlockWord& words) {
+  words[k_body_words] = words[k_body_words + 1] = 0;
+}
+
 HWY_ATTR void add_rows(const BlockWord* rows, std::uint32_t used, const MatrixPlaces& places) {
   BlockWord a[k_most_rows], b[k_most_rows];
   while (used != 0) {
@@ -97,6 +102,8 @@ HWY_ATTR void add_rows(const BlockWord* rows, std::uint32_t used, const MatrixPl
         store(both, &a[count][lane]);
         store(upper(both), &b[count][lane]);
       }
+      clear_rest(a[count]);
+      clear_rest(b[count]);
     }
     if (places.a != nullptr) add_products(a, a, count, *places.a);
     if (places.b != nullptr) add_products(b, b, count, *places.b);
@@ -118,6 +125,8 @@ HWY_ATTR void subtract_rows(const BlockWord* rows, std::uint32_t used, const std
     store(add(load(&a[lane]), round_shift<30>(of_a)), &a[lane]);
     store(add(load(&b[lane]), round_shift<30>(of_b)), &b[lane]);
   }
+  clear_rest(a);
+  clear_rest(b);
 }
 
 HWY_ATTR void row_products(const BlockWord* rows, std::uint32_t used, const BlockWord& a,
