@@ -152,6 +152,7 @@ void PhaseSolver::factor() {
 
 // Of all rows, exact. How many of their bits a direct step drops.
 void PhaseSolver::find_residuals() {
+  LKS_ASSERT(island_.velocities.size() == body_count() + 1);
   const std::span<Problem> problems = island_.problems;
   const std::uint64_t most = lanes::proximal_kernels().find_residuals(
       problems.data(), problems.size(), island_.velocities.data());
@@ -186,6 +187,7 @@ void PhaseSolver::sum_changes() {
 PhaseSolver::Slope PhaseSolver::slope() const {
   Slope result;
   for (const Problem& problem : island_.problems) {
+    LKS_ASSERT(problem.points <= problem.rows && problem.rows <= lanes::k_most_rows);
     for (std::size_t i = 0; i < problem.rows; ++i) {
       const std::int64_t change = problem.next[i] - problem.impulse[i];
       result.changes += magnitude(change);
@@ -199,6 +201,7 @@ PhaseSolver::Slope PhaseSolver::slope() const {
 std::int64_t PhaseSolver::search(const ProductSum& slope) const {
   constexpr std::int64_t k_scale = std::int64_t{1} << lanes::k_residual_point;
   ProductSum curve;
+  LKS_ASSERT(!is_solved_);
   for (const Problem& problem : island_.problems) {
     for (std::size_t i = 0; i < problem.rows; ++i) {
       const std::int64_t change = within_units(problem.next[i] - problem.impulse[i]);
@@ -292,6 +295,7 @@ bool PhaseSolver::move_centres() {
           raw::round_shift(give, 30) > k_most_give * (problem.tolerance[i] >> island_.state.loose);
     }
   }
+  LKS_ASSERT(!moves || island_.joints.empty());
   if (moves)
     for (Problem& problem : island_.problems)
       problem.centre = problem.impulse;

@@ -58,7 +58,7 @@ struct FittingWords {
 };
 
 // Wraps: words that do not fit are found out afterwards.
-std::int64_t product(std::int64_t a, std::int64_t b) {
+std::int64_t wrapped_product(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b));
 }
 
@@ -135,6 +135,7 @@ std::size_t BodyFactor::find_order(const Plan& plan, std::size_t& blocks) {
 
 void BodyFactor::add_columns(const Plan& plan) {
   LKS_ASSERT(order_.size() == plan.bodies);
+  LKS_ASSERT(columns_.size() == plan.first_column);
   std::uint32_t block = plan.first_block + plan.bodies;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     Column column;
@@ -223,6 +224,7 @@ void BodyFactor::reset(const Plan& plan) {
 }
 
 void BodyFactor::add(std::uint32_t block, const RowSide& x, const RowSide& y, std::int32_t k) {
+  LKS_ASSERT(block < blocks_.size() && k >= 0);
   for (std::size_t j = 0; j < k_side; ++j) {
     const std::int64_t ky = raw::round_shift(std::int64_t{k} * y[j], k_entry_bits);
     for (std::size_t i = 0; i < k_side; ++i)
@@ -299,7 +301,7 @@ void BodyFactor::factor(const Plan& plan) {
 
 // Times the reciprocal of pivot i.
 std::int64_t divided(const lanes::FactorColumn& column, std::size_t i, std::int64_t x) {
-  return lanes::scalar::round_shift(product(x, column.mantissas[i]), column.shifts[i]);
+  return lanes::scalar::round_shift(wrapped_product(x, column.mantissas[i]), column.shifts[i]);
 }
 
 template <class Keep>
@@ -318,7 +320,7 @@ bool BodyFactor::solve_down(const Plan& plan, Keep keep) {
       const std::int64_t rest = keep(subtract(x[j], round_shift(sums[j], k_entry_bits)));
       x[j] = keep(divided(column, j, rest));
       for (std::size_t i = j + 1; i < k_side; ++i)
-        sums[i] = lanes::scalar::add(sums[i], product(diagonal.words[j][i], x[j]));
+        sums[i] = lanes::scalar::add(sums[i], wrapped_product(diagonal.words[j][i], x[j]));
     }
     if (column.count == 0) continue;
     fits =
@@ -343,7 +345,7 @@ bool BodyFactor::solve_up(const Plan& plan, Keep keep) {
     for (std::size_t i = k_side; i-- > 0;) {
       std::int64_t sum = 0;
       for (std::size_t j = i + 1; j < k_side; ++j)
-        sum = lanes::scalar::add(sum, product(diagonal.words[i][j], x[j]));
+        sum = lanes::scalar::add(sum, wrapped_product(diagonal.words[i][j], x[j]));
       const std::int64_t rest = subtract(subtract(x[i], sums[i]), round_shift(sum, k_entry_bits));
       x[i] = keep(divided(column, i, keep(rest)));
     }
@@ -371,10 +373,12 @@ void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
 
 template <class Keep>
 bool BodyFactor::try_solve(const Plan& plan, std::span<BodyVector> b) {
+  LKS_ASSERT(plan.first_column + plan.bodies <= columns_.size());
   bool fits = true;
   BodyVector* const rows = x_.data() + plan.first_column;
   const Column* const columns = columns_.data() + plan.first_column;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
+    LKS_ASSERT(columns[k].body < b.size());
     rows[k] = b[columns[k].body];
     scale_words(rows[k], columns[k].scale, fits);
   }

@@ -86,6 +86,7 @@ void ProximalLocks::set_inertia(std::uint32_t group, std::uint32_t body,
 }
 
 void ProximalLocks::Joint::set_row(std::size_t row, const ProximalLock& lock) {
+  LKS_ASSERT(row < rows.size() && lock.row[6] == 0 && lock.row[7] == 0);
   const auto word_of = [](const RowScale& scale) {
     return lanes::scalar::pack(scale.mantissa, scale.shift);
   };

@@ -81,6 +81,7 @@ std::int64_t length_of(const Sides& sides) {
     squares += static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(a) +
                static_cast<std::uint64_t>(b) * static_cast<std::uint64_t>(b);
   }
+  LKS_ASSERT(most >= 0);
   if (most <= k_whole_q30) return static_cast<std::int64_t>(isqrt_rounded(squares));
   UInt128 sum{};
   const auto add = [&](std::int64_t x) { sum = sum + multiply_wide(magnitude(x), magnitude(x)); };

@@ -137,7 +137,7 @@ struct ProximalKernels {
   /// Adds Σ weight·Jᵀ·J of the active rows to sums, Q50.
   void (*add_to_matrix)(const ProximalBlock& block, const MatrixPlaces& places);
   /// Adds Σ Jᵀ·J of rows to sums, Q50. `rows` has a word each, components in lanes; low: of A,
-  /// high: of B, Q30. A bit of `used` stands for each row that counts.
+  /// high: of B, Q30; lanes 6 and 7 are not read. A bit of `used` stands for each row that counts.
   void (*add_rows)(const BlockWord* rows, std::uint32_t used, const MatrixPlaces& places);
   /// Subtracts Jᵀ·x of such rows from both bodies, rounded once; |x| ≤ 2^28.
   void (*subtract_rows)(const BlockWord* rows, std::uint32_t used, const std::int64_t* x,

@@ -142,6 +142,7 @@ void EnergyLimit::limit_moves(const Bodies& all) {
 
 // The next substep begins as this one ends.
 void EnergyLimit::limit_gains(const Bodies& all) {
+  LKS_ASSERT(watches_);
   const std::uint32_t before = count_;
   sum(all);
   for (Island& island : islands_) {
