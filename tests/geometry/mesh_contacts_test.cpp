@@ -111,7 +111,7 @@ class CollectContacts final : public geometry::PartVisitor {
     const PosedShape triangle{part.shape, pose_.rotation, part.polytope};
     const Manifold manifold = is_sphere ? collide_sphere_front(vertices, pose_)
                                         : part.polytope->kernels->collide(triangle, pose_.posed(),
-                                                                          pose_.at, pose_.margin);
+                                                                          pose_.at, pose_.margin, {});
     TriangleContact contact =
         contact_with(part.index, vertices, part.triangle.active_edges, part.surface);
     contact.manifold = manifold;

@@ -23,7 +23,6 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       constraints_(step, body_capacity, contact_capacity, {bodies_, contacts_, islands_, effort_}),
       warm_start_(body_capacity, contact_capacity, joint_capacity,
                   {bodies_, contacts_, islands_, joints_, constraints_.layout()}),
-      warm_start_limit_(body_capacity, {bodies_, contacts_, islands_, constraints_}),
       totals_(most_hits(body_capacity)),
       impacts_(step, contact_capacity, {bodies_, contacts_, islands_, constraints_, totals_}),
       motion_(step, body_capacity + contact_capacity + 1, bodies_),
@@ -66,7 +65,6 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
     converged_->begin(scene, bodies_, contacts_, islands_, constraints_.layout(),
                       constraints_.run());
   warm_start_.find(scene, constraints_.run(), parallel);
-  warm_start_limit_.limit();
   totals_.begin(
       scene.watched, contacts_, constraints_,
       converged_ == nullptr ? std::span<const ProximalContact>() : converged_->contacts());

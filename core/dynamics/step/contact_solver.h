@@ -29,7 +29,6 @@
 #include "core/dynamics/step/limits/ball_impacts.h"
 #include "core/dynamics/step/limits/bounce_limit.h"
 #include "core/dynamics/step/limits/energy_limit.h"
-#include "core/dynamics/step/limits/warm_start_limit.h"
 #include "core/dynamics/step/substep_schedule.h"
 
 namespace lockstone {
@@ -136,7 +135,6 @@ class ContactSolver {
   ContactConstraints constraints_;
   std::unique_ptr<ConvergedIslands> converged_;  // null where no island is solved to convergence
   StackWarmStart warm_start_;
-  WarmStartLimit warm_start_limit_;
   ImpulseTotals totals_;
   BallImpacts impacts_;
   EnergyLimit energy_limit_;

@@ -214,8 +214,8 @@ void add_rest_families(std::vector<Family>& all) {
                          {"balls", "40-250 balls in a box", fill_balls},
                          {"crates", "10-150 boxes in a pile", fill_crates},
                          {"big-pile", "220-320 boxes in a pile", fill_big_pile},
-                         {"plates", "2-100 thin plates or discs in a heap", fill_plates},
-                         {"tetrahedra", "2-120 tetrahedra in a heap", fill_tetrahedra},
+                         {"plates", "2-100 thin plates or discs in a pile", fill_plates},
+                         {"tetrahedra", "2-120 tetrahedra in a pile", fill_tetrahedra},
                          {"ragdolls", "1-12 ragdolls in a pile", fill_ragdolls},
                          {"hull-pyramid", "2-12 rows of prisms", fill_hull_pyramid}});
 }

@@ -11,7 +11,8 @@ StackWarmStart::StackWarmStart(std::size_t body_capacity, std::size_t contact_ca
                                std::size_t joint_capacity, const Parts& parts)
     : parts_(parts),
       supports_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
-      initial_(contact_capacity) {}
+      initial_(contact_capacity),
+      limit_(body_capacity, {parts.bodies, parts.contacts, parts.islands, parts.layout}) {}
 
 void StackWarmStart::make_room(std::uint32_t workers) {
   initial_.make_room(workers);
@@ -38,6 +39,7 @@ void StackWarmStart::find(const ContactScene& scene, const ContactRun& run, Para
     });
     initial_.find(supports_, run, parts_.bodies.before(), parallel);
   }
+  limit_.limit(run);
 }
 
 // It has neither joints nor locked axes.

@@ -1,5 +1,5 @@
-// Starts large islands warm: propagates loads down new stacks, and rebalances old ones from time to
-// time.
+// Starts islands warm: propagates loads down new stacks, rebalances old ones from time to time, and
+// limits the energy of all that are iterated.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "core/dynamics/stack/initial_warm_start.h"
 #include "core/dynamics/stack/stack_rebalance.h"
 #include "core/dynamics/step/contacts/constraint_layout.h"
+#include "core/dynamics/step/contacts/warm_start_limit.h"
 #include "core/dynamics/step/input/contact_list.h"
 #include "core/dynamics/step/input/contact_scene.h"
 #include "core/dynamics/step/input/solver_bodies.h"
@@ -49,6 +50,7 @@ class StackWarmStart {
   SupportGraph supports_;
   InitialWarmStart initial_;
   StackRebalance rebalance_;
+  WarmStartLimit limit_;
 };
 
 }  // namespace lockstone

@@ -15,8 +15,8 @@ namespace lockstone::geometry {
 namespace {
 
 /// Of a half edge in a feature.
-constexpr int k_edge_bits = 10;
-static_assert(k_max_polytope_edges <= 1 << k_edge_bits);
+constexpr int k_edge_index_bits = 10;
+static_assert(k_max_polytope_edges <= 1 << k_edge_index_bits);
 
 /// Half edges by index.
 struct EdgeList {
@@ -195,8 +195,9 @@ EdgeSupport best_edge(const PolytopePair& pair, Fine threshold, const Facing& fr
 }
 
 std::uint32_t feature_of_edges(int edge_a, int edge_b) {
-  LKS_ASSERT(edge_a >= 0 && edge_a < 1 << k_edge_bits && edge_b >= 0 && edge_b < 1 << k_edge_bits);
-  return k_hull_edge_bits | static_cast<std::uint32_t>(edge_a) << k_edge_bits |
+  LKS_ASSERT(edge_a >= 0 && edge_a < 1 << k_edge_index_bits && edge_b >= 0 &&
+             edge_b < 1 << k_edge_index_bits);
+  return k_hull_edge_bits | static_cast<std::uint32_t>(edge_a) << k_edge_index_bits |
          static_cast<std::uint32_t>(edge_b);
 }
 
@@ -206,8 +207,10 @@ bool is_of_hull_edges(std::uint32_t feature) {
 
 EdgeSupport held_edge(const PolytopePair& pair, std::uint32_t feature, const Facing& front) {
   LKS_ASSERT(is_of_hull_edges(feature));
-  const auto index = [](std::uint32_t x) { return static_cast<int>(x % (1U << k_edge_bits)); };
-  const int edge_a = index(feature >> k_edge_bits), edge_b = index(feature);
+  const auto index = [](std::uint32_t x) {
+    return static_cast<int>(x % (1U << k_edge_index_bits));
+  };
+  const int edge_a = index(feature >> k_edge_index_bits), edge_b = index(feature);
   const auto has = [](const Polytope& polytope, int edge) {
     return edge < static_cast<int>(polytope.edges.size());
   };

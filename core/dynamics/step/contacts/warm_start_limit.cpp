@@ -1,4 +1,4 @@
-#include "core/dynamics/step/limits/warm_start_limit.h"
+#include "core/dynamics/step/contacts/warm_start_limit.h"
 
 #include <lockstone/assert.h>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t k_soft_push = std::int64_t{1} << (lanes::k_velocity_bits - 2);
 
 // An island may gain this part of its energy: 2^-2.
-constexpr int k_free_gain_shift = 2;
+constexpr int k_warm_gain_shift = 2;
 
 // Of both operands of a word.
 std::int64_t share_of_both(std::int64_t word, std::int32_t share) {
@@ -25,6 +25,7 @@ std::int64_t share_of_both(std::int64_t word, std::int32_t share) {
 }
 
 void scale_impulses(lanes::ManifoldBlock& block, std::size_t lane, std::int32_t share) {
+  LKS_ASSERT(lane < lanes::k_block_lanes && share >= 0);
   for (lanes::ManifoldBlock::Point& point : block.points)
     point.impulse[lane] = share_of_both(point.impulse[lane], share);
   block.friction[lane] = share_of_both(block.friction[lane], share);
@@ -39,12 +40,12 @@ WarmStartLimit::WarmStartLimit(std::size_t body_capacity, const Parts& parts) : 
   islands_.reserve(body_capacity + 1);
 }
 
-void WarmStartLimit::limit() {
+void WarmStartLimit::limit(const ContactRun& run) {
   if (!find_hard_pushes()) return;
   sum_energies();
   choose_shares();
   scale_bodies();
-  scale_contacts();
+  scale_contacts(run);
 }
 
 bool WarmStartLimit::find_hard_pushes() {
@@ -67,6 +68,7 @@ void WarmStartLimit::sum_energies() {
     Island& island = islands_[parts_.islands.all().of(i)];
     if (!island.is_pushed_hard) continue;
     const SolverBody& body = parts_.bodies.constants()[i];
+    LKS_ASSERT(body.is_pushed());
     if (island.unit == BlockFloat{}) island.unit = body.inverse_mass;
     const BlockFloat mass = quotient(island.unit, body.inverse_mass);
     const auto add = [&](std::int64_t& sum, std::int64_t each) {
@@ -91,7 +93,7 @@ void WarmStartLimit::sum_energies() {
 void WarmStartLimit::choose_shares() {
   for (Island& island : islands_) {
     const std::int64_t gained = raw::saturating_add(island.linear, island.square);
-    if (gained > island.free >> k_free_gain_shift)
+    if (gained > island.free >> k_warm_gain_shift)
       island.share = share_of(-(island.linear >> 1), island.square);
     LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
   }
@@ -101,6 +103,7 @@ void WarmStartLimit::scale_bodies() {
   for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
     const std::int32_t share = islands_[parts_.islands.all().of(i)].share;
     if (share == 1 << k_share_bits) continue;
+    LKS_ASSERT(share >= 0 && i < parts_.bodies.count());
     lanes::BodyVelocity& warm = parts_.bodies.before()[i];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       warm.velocity[axis] = product_rounded(warm.velocity[axis], share, k_share_bits);
@@ -109,12 +112,12 @@ void WarmStartLimit::scale_bodies() {
   }
 }
 
-void WarmStartLimit::scale_contacts() {
+void WarmStartLimit::scale_contacts(const ContactRun& run) {
   parts_.contacts.for_each([&](ContactId id, const ContactRef& contact) {
     const std::int32_t share = islands_[parts_.islands.of(contact)].share;
     if (share == 1 << k_share_bits) return;
-    const ContactLane place = parts_.constraints.layout().lane_of(id);
-    scale_impulses(parts_.constraints.run().blocks[place.block()], place.lane(), share);
+    const ContactLane place = parts_.layout.lane_of(id);
+    scale_impulses(run.blocks[place.block()], place.lane(), share);
   });
 }
 

@@ -12,7 +12,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/dynamics/step/contacts/contact_constraints.h"
+#include "core/dynamics/contact/row_geometry.h"
+#include "core/dynamics/step/contacts/constraint_layout.h"
 #include "core/dynamics/step/input/contact_list.h"
 #include "core/dynamics/step/input/solver_bodies.h"
 #include "core/dynamics/step/islands/island_builder.h"
@@ -26,7 +27,7 @@ class WarmStartLimit {
     SolverBodies& bodies;
     const ContactList& contacts;
     const IslandBuilder& islands;
-    ContactConstraints& constraints;
+    const ConstraintLayout& layout;
   };
 
   /// `parts` must outlive it. No function but this allocates.
@@ -34,7 +35,7 @@ class WarmStartLimit {
 
   /// Once all impulses of the tick's beginning are known: those of single contacts, and the
   /// velocities that they give to bodies.
-  void limit();
+  void limit(const ContactRun& run);
 
  private:
   // Of an island, twice energies by the mass of its first body.
@@ -51,7 +52,7 @@ class WarmStartLimit {
   void sum_energies();
   void choose_shares();
   void scale_bodies();
-  void scale_contacts();
+  void scale_contacts(const ContactRun& run);
 
   Parts parts_;
   std::vector<Island> islands_;
