@@ -39,12 +39,18 @@ fetch_node() {
   fi
 }
 
-# build_module PRESET FOLDER SUFFIX: compiles, and copies the modules into the package.
+# shrink MODULE RESULT: optimises for size once more than Emscripten does, which saves half a percent.
+shrink() {
+  wasm-opt -Oz --low-memory-unused --zero-filled-memory --mvp-features \
+    --enable-exception-handling --enable-simd "$1" -o "$2"
+}
+
+# build_module PRESET FOLDER SUFFIX: compiles, and puts the modules into the package.
 build_module() {
   build_preset "$1"
-  cp "$out/$2/tools/web/lockstone_web.wasm" "$package/dist/lockstone$3.wasm"
-  cp "$out/$2/tools/web/lockstone_web_full.wasm" "$package/dist/lockstone-full$3.wasm"
-  cp "$out/$2/tools/web/lockstone_web_session.wasm" "$package/dist/lockstone-session$3.wasm"
+  shrink "$out/$2/tools/web/lockstone_web.wasm" "$package/dist/lockstone$3.wasm"
+  shrink "$out/$2/tools/web/lockstone_web_full.wasm" "$package/dist/lockstone-full$3.wasm"
+  shrink "$out/$2/tools/web/lockstone_web_session.wasm" "$package/dist/lockstone-session$3.wasm"
 }
 
 package=$out/package
