@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/contact/manifold/contact_choice.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/geometry/dispatch/collide.h"
 #include "tests/geometry/reference.h"
@@ -181,6 +182,16 @@ inline HeldFeatures held_by(const Manifold& manifold) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i)
     held.features[i] = manifold.points[i].feature;
   return held;
+}
+
+/// Of the deepest point, m; negative where shapes overlap.
+inline double depth_of(const Manifold& manifold) {
+  return std::ldexp(static_cast<double>(geometry::deepest_of(manifold)), -geometry::k_fine_bits);
+}
+
+inline void tremble(Dice& dice, double metres_most, Vec3<Length>& offset) {
+  for (int axis = 0; axis < 3; ++axis)
+    offset[axis] += metres(dice.uniform(-metres_most, metres_most));
 }
 
 inline std::string describe(const Mat3& m) {

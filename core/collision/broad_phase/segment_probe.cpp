@@ -55,7 +55,7 @@ void SegmentProbe::set(const Vec3<Length>& translation) {
   bool is_short = true;
   for (int i = 0; i < 3; ++i)
     is_short = is_short && 4 * std::abs(way_[i]) <= half_[i];
-  is_axial_ = is_short || std::ranges::count(way_, 0) >= 2;
+  bounds_suffice_ = is_short || std::ranges::count(way_, 0) >= 2;
 }
 
 // Separating axes of a segment and a box: the box's axes, then their cross products with the
@@ -63,7 +63,7 @@ void SegmentProbe::set(const Vec3<Length>& translation) {
 // after the first test ≤ 2^33: products fit.
 bool SegmentProbe::meets(const Bounds& bounds) const {
   if (!overlap(swept_, bounds)) return false;
-  if (is_axial_) return true;
+  if (bounds_suffice_) return true;
   std::int64_t offset[3], extent[3];
   for (int i = 0; i < 3; ++i) {
     const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;

@@ -36,7 +36,7 @@ class SegmentProbe {
   std::int64_t way_[3] = {};
   std::int64_t half_[3] = {};
   // The way is along one axis, or none, or short beside the box: its bounds are about all of it.
-  bool is_axial_ = false;
+  bool bounds_suffice_ = false;
 };
 
 /// The point a fraction of the way along.

@@ -46,6 +46,11 @@ inline constexpr int k_share_bits = 30;
                      a.exponent - b.exponent - 31);
 }
 
+/// Adds the energy of a body for each mass, times its mass, within 64 bits.
+inline void add_energy(std::int64_t& sum, std::int64_t each, BlockFloat mass) {
+  sum = raw::saturating_add(sum, scale_saturating(each, mass, 0));
+}
+
 /// The energy s²·square + s·linear that a share s (Q30) of a change of velocity adds.
 [[nodiscard]] inline std::int64_t energy_of_share(std::int64_t square, std::int64_t linear,
                                                   std::int32_t share) {

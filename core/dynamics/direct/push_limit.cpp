@@ -20,17 +20,13 @@ constexpr std::int64_t k_free_speeds = 4;
 // Slower pushes are not looked at: 1 mm/s, Q24.
 constexpr std::int64_t k_slow_push = (std::int64_t{1} << 24) / 1000;
 
-bool pushes_out(const lanes::ProximalBlock& problem, std::size_t row) {
-  return row < problem.points && problem.bias[row] < 0;
-}
-
 // Of all points that push overlap out, m/s, Q24.
 std::int64_t fastest_push(const IslandView& island) {
   std::int64_t fastest = 0;
   for (std::size_t c = 0; c < island.contacts.size(); ++c) {
     const lanes::ProximalBlock& problem = island.problems[c];
     for (std::size_t i = 0; i < problem.points; ++i) {
-      if (!pushes_out(problem, i)) continue;
+      if (problem.bias[i] >= 0) continue;
       const RowScale from_row = island.contacts[c].all[i].to_speed.reciprocal();
       fastest = std::max(fastest, -from_row.times(problem.bias[i], k_row_unit_bits - 24));
     }
@@ -79,7 +75,7 @@ bool limits_pushes(const ContactRun& run, const IslandView& island) {
   LKS_ASSERT(share >= 0 && share < 1 << k_share_bits);
   for (lanes::ProximalBlock& problem : island.problems)
     for (std::size_t i = 0; i < problem.points; ++i)
-      if (pushes_out(problem, i))
+      if (problem.bias[i] < 0)
         problem.bias[i] = product_rounded(problem.bias[i], share, k_share_bits);
   return true;
 }

@@ -33,16 +33,6 @@ Scene touching_boxes(Dice& dice) {
   return scene;
 }
 
-void tremble(Dice& dice, double metres_most, Scene& scene) {
-  for (int axis = 0; axis < 3; ++axis)
-    scene.offset[axis] += metres(dice.uniform(-metres_most, metres_most));
-}
-
-/// Of the deepest point, m; negative.
-double depth(const Manifold& manifold) {
-  return std::ldexp(static_cast<double>(geometry::deepest_of(manifold)), -geometry::k_fine_bits);
-}
-
 bool is_other(const Manifold& a, const Manifold& b) {
   return geometry::touches(a) && geometry::touches(b) && !geometry::are_alike(a.normal, b.normal);
 }
@@ -53,7 +43,7 @@ bool alternates(Dice dice, const Scene& still, bool holds) {
   int changes = 0;
   for (int tick = 0; tick < 40; ++tick) {
     Scene scene = still;
-    tremble(dice, 1.5e-4, scene);
+    tremble(dice, 1.5e-4, scene.offset);
     const Manifold next = collide_holding(scene, holds ? held_by(last) : HeldFeatures{});
     changes += is_other(last, next) ? 1 : 0;
     last = next;
@@ -80,7 +70,7 @@ struct MovedBoxes {
 
   MovedBoxes(Dice& dice, double metres_most) : scene(touching_boxes(dice)) {
     held = held_by(scene.collide());
-    tremble(dice, metres_most, scene);
+    tremble(dice, metres_most, scene.offset);
   }
   [[nodiscard]] Manifold collide() const { return collide_holding(scene, held); }
 };
@@ -93,8 +83,8 @@ TEST(HeldFeatures, CostNoMoreOverlapThanTheirMargins) {
     if (!geometry::touches(plain)) continue;
     ASSERT_TRUE(geometry::touches(holding)) << describe(boxes.scene);
     // Twice a tenth and half a millimetre: of edges beside a face, and of that beside other edges.
-    const double deepest = depth(plain);
-    EXPECT_GT(depth(holding), 1.25 * deepest - 1.2e-3) << describe(boxes.scene);
+    const double deepest = depth_of(plain);
+    EXPECT_GT(depth_of(holding), 1.25 * deepest - 1.2e-3) << describe(boxes.scene);
   }
 }
 

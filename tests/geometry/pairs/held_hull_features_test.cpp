@@ -49,10 +49,6 @@ struct HullPair {
                        manifold);
     return manifold;
   }
-  void tremble(Dice& dice, double most) {
-    for (int axis = 0; axis < 3; ++axis)
-      offset[axis] += metres(dice.uniform(-most, most));
-  }
 
  private:
   static Shape shape(const TurnedSolid& solid) {
@@ -76,21 +72,26 @@ HullPair touching_pair(Dice& dice, const Solids& solids) {
   return pair;
 }
 
-double hull_depth(const Manifold& manifold) {
-  return std::ldexp(static_cast<double>(geometry::deepest_of(manifold)), -geometry::k_fine_bits);
-}
+/// Two of them that have moved since they had the features that they hold.
+struct MovedHulls {
+  HullPair pair;
+  HeldFeatures held;
+
+  MovedHulls(Dice& dice, const Solids& solids) : pair(touching_pair(dice, solids)) {
+    held = held_by(pair.collide());
+    tremble(dice, 2e-3, pair.offset);
+  }
+};
 
 // A manifold may be kept while nothing moves, or found again from its own features.
 TEST(HeldHullFeatures, OfAManifoldGiveThatManifold) {
   Dice dice;
   const Solids solids;
   for (int round = 0; round < 3000; ++round) {
-    HullPair pair = touching_pair(dice, solids);
-    const HeldFeatures before = held_by(pair.collide());
-    pair.tremble(dice, 2e-3);
-    const HeldFeatures held = held_by(pair.collide(before));
-    if (held.count == 0) continue;
-    EXPECT_EQ(held, held_by(pair.collide(held))) << round;
+    const MovedHulls hulls(dice, solids);
+    const HeldFeatures found = held_by(hulls.pair.collide(hulls.held));
+    if (found.count == 0) continue;
+    EXPECT_EQ(found, held_by(hulls.pair.collide(found))) << round;
   }
 }
 
@@ -98,12 +99,10 @@ TEST(HeldHullFeatures, CostNoMoreOverlapThanTheirMargins) {
   Dice dice;
   const Solids solids;
   for (int round = 0; round < 3000; ++round) {
-    HullPair pair = touching_pair(dice, solids);
-    const HeldFeatures held = held_by(pair.collide());
-    pair.tremble(dice, 2e-3);
-    const Manifold plain = pair.collide();
+    const MovedHulls hulls(dice, solids);
+    const Manifold plain = hulls.pair.collide();
     if (!geometry::touches(plain)) continue;
-    EXPECT_GT(hull_depth(pair.collide(held)), 1.25 * hull_depth(plain) - 1.2e-3) << round;
+    EXPECT_GT(depth_of(hulls.pair.collide(hulls.held)), 1.25 * depth_of(plain) - 1.2e-3) << round;
   }
 }
 

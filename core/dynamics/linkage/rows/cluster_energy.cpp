@@ -71,7 +71,7 @@ EnergyPath energy_path(const JointRun& run, const JointSystem& system, const Joi
     const JointMotion way{now.velocity - first.velocity, now.surface - first.surface,
                           now.spin - first.spin};
     const auto add = [&](std::int64_t& sum, const JointMotion& a, const JointMotion& b) {
-      sum = raw::saturating_add(sum, scale_saturating(product_of(a, b), body.mass, 0));
+      add_energy(sum, product_of(a, b), body.mass);
     };
     add(path.first, first, first);
     add(path.linear, first, way);

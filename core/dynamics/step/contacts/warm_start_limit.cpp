@@ -49,9 +49,8 @@ void WarmStartLimit::limit(const ContactRun& run) {
 }
 
 bool WarmStartLimit::find_hard_pushes() {
-  const SolverBodies& bodies = parts_.bodies;
   bool any = false;
-  for (std::uint32_t i = 1; i < bodies.count(); ++i) {
+  for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
     if (is_below(parts_.bodies.before()[i], k_soft_push)) continue;
     const std::uint32_t island = parts_.islands.all().of(i);
     if (island == 0 || parts_.islands.tally(island).joints != 0) continue;
@@ -71,9 +70,6 @@ void WarmStartLimit::sum_energies() {
     LKS_ASSERT(body.is_pushed());
     if (island.unit == BlockFloat{}) island.unit = body.inverse_mass;
     const BlockFloat mass = quotient(island.unit, body.inverse_mass);
-    const auto add = [&](std::int64_t& sum, std::int64_t each) {
-      sum = raw::saturating_add(sum, scale_saturating(each, mass, 0));
-    };
     const lanes::BodyVelocity &row = parts_.bodies.rows()[i], &warm = parts_.bodies.before()[i];
     Vec3<Velocity> velocity = velocity_of_row(row.velocity), spin = velocity_of_row(row.spin);
     for (int axis = 0; axis < 3; ++axis) {
@@ -83,9 +79,9 @@ void WarmStartLimit::sum_energies() {
     const Vec3<Velocity> gain = velocity_of_row(warm.velocity),
                          spin_gain = velocity_of_row(warm.spin);
     const Vec3<Velocity> surface = surface_velocity(body.inverse_inertia, spin_gain);
-    add(island.free, twice_energy(velocity, spin, body.inverse_inertia));
-    add(island.square, energy_product(gain, gain, spin_gain, surface));
-    add(island.linear, 2 * energy_product(velocity, gain, spin, surface));
+    add_energy(island.free, twice_energy(velocity, spin, body.inverse_inertia), mass);
+    add_energy(island.square, energy_product(gain, gain, spin_gain, surface), mass);
+    add_energy(island.linear, 2 * energy_product(velocity, gain, spin, surface), mass);
   }
 }
 
@@ -103,7 +99,7 @@ void WarmStartLimit::scale_bodies() {
   for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
     const std::int32_t share = islands_[parts_.islands.all().of(i)].share;
     if (share == 1 << k_share_bits) continue;
-    LKS_ASSERT(share >= 0 && i < parts_.bodies.count());
+    LKS_ASSERT(share >= 0 && share < 1 << k_share_bits);
     lanes::BodyVelocity& warm = parts_.bodies.before()[i];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       warm.velocity[axis] = product_rounded(warm.velocity[axis], share, k_share_bits);

@@ -64,8 +64,7 @@ BounceLimit::Bounce BounceLimit::bounce_of(std::uint32_t number, const BodyRecor
 // Masses count as parts of that of the island's first body.
 void BounceLimit::add(std::uint32_t number, const IslandGain& gain, std::int64_t each,
                       std::int64_t& sum) const {
-  const BlockFloat mass = quotient(gain.unit, bodies_.constants()[number].inverse_mass);
-  sum = raw::saturating_add(sum, scale_saturating(each, mass, 0));
+  add_energy(sum, each, quotient(gain.unit, bodies_.constants()[number].inverse_mass));
 }
 
 template <class Visit>

@@ -81,7 +81,7 @@ void EnergyLimit::note(const Bodies& all) {
   for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
     starts_[i] = velocity_of_row(all.rows[i].velocity);
     if (knows_now_) return;
-    island.first = raw::saturating_add(island.first, scale_saturating(row_energy(all, i), mass, 0));
+    add_energy(island.first, row_energy(all, i), mass);
   });
 }
 
@@ -100,10 +100,9 @@ void EnergyLimit::sum(const Bodies& all) {
                starts_[i][axis].raw + end[axis].raw);
     const std::int64_t own = row_energy(all, i);
     const std::int64_t change = raw::saturating_add(own, -work.rounded(32));
-    island.now = raw::saturating_add(island.now, scale_saturating(own, mass, 0));
-    island.change = raw::saturating_add(island.change, scale_saturating(change, mass, 0));
-    island.moving_gain =
-        raw::saturating_add(island.moving_gain, scale_saturating(k_moving_gain, mass, 0));
+    add_energy(island.now, own, mass);
+    add_energy(island.change, change, mass);
+    add_energy(island.moving_gain, k_moving_gain, mass);
   });
 }
 

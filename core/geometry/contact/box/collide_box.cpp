@@ -89,9 +89,7 @@ void hold_face(BoxMeeting& meeting, Manifold& out) {
   LKS_ASSERT(faces.separation() <= 0);
   if (!is_of_face(held) || is_of_second_face(held) == faces.b_is_reference) return;
   (void)meeting.on_face_of(!faces.b_is_reference, -1, out);
-  const Fine deepest = deepest_of(out);
-  if (deepest <= 0 && second_face_threshold(deepest) >= faces.separation())
-    faces.b_is_reference = !faces.b_is_reference;
+  if (stays_reference(out, faces.separation())) faces.b_is_reference = !faces.b_is_reference;
 }
 
 /// Two edges that met a tick ago go on doing so until a face or other edges overlap clearly less:
@@ -104,11 +102,8 @@ bool keep_edges(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) 
   const Fine better = std::min(edge_threshold(edge.separation), Fine{0});
   if (best_edge(meeting.pair, better).found) return false;
   meeting.on_reference(out);
-  const Fine face = deepest_of(out);
-  const bool is_face_better =
-      face <= 0 && (are_alike(out.normal, meeting.flip ? -edge.normal : edge.normal) ||
-                    edge.separation < held_edge_threshold(face));
-  return !is_face_better && meeting.take_edges(edge, out);
+  const Vec3<Unit> normal = meeting.flip ? -edge.normal : edge.normal;
+  return !is_better_than_held(out, normal, edge.separation) && meeting.take_edges(edge, out);
 }
 
 }  // namespace

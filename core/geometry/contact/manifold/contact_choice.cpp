@@ -40,6 +40,20 @@ Fine deepest_of(const Manifold& manifold) {
   return deepest;
 }
 
+bool stays_reference(const Manifold& on_face, Fine separation) {
+  LKS_ASSERT(separation <= 0);
+  const Fine deepest = deepest_of(on_face);
+  return deepest <= 0 && second_face_threshold(deepest) >= separation;
+}
+
+bool is_better_than_held(const Manifold& on_face, const Vec3<Unit>& edge_normal,
+                         Fine edge_separation) {
+  LKS_ASSERT(edge_separation <= 0);
+  const Fine deepest = deepest_of(on_face);
+  return deepest <= 0 &&
+         (are_alike(on_face.normal, edge_normal) || edge_separation < held_edge_threshold(deepest));
+}
+
 Manifold separated_by(const Vec3<Unit>& normal) {
   LKS_ASSERT(is_unit(normal));
   Manifold manifold;

@@ -236,8 +236,7 @@ void hold_face(Meeting& meeting) {
   if (meeting.a.face < 0 || meeting.b.face < 0 || !is_of_hull_face(held)) return;
   LKS_ASSERT(!meeting.holds_other_face && meeting.separation() <= 0);
   if (((held & k_hull_of_b) != 0) == meeting.b_is_reference()) return;
-  const Fine deepest = deepest_of(other_manifold(meeting));
-  meeting.holds_other_face = deepest <= 0 && second_face_threshold(deepest) >= meeting.separation();
+  meeting.holds_other_face = stays_reference(other_manifold(meeting), meeting.separation());
 }
 
 /// Two edges that met a tick ago go on doing so until a face or other edges overlap clearly less,
@@ -253,11 +252,8 @@ Manifold kept_edges(const Meeting& meeting) {
     return {};
   const CrossedEdges crossed = edge_manifold(pair, edge);
   if (!is_sure(pair, crossed)) return {};
-  const Manifold on_reference = reference_manifold(meeting);
-  const Fine face = deepest_of(on_reference);
   const bool is_face_better =
-      face <= 0 && (are_alike(on_reference.normal, crossed.manifold.normal) ||
-                    edge.separation < held_edge_threshold(face));
+      is_better_than_held(reference_manifold(meeting), crossed.manifold.normal, edge.separation);
   return is_face_better ? Manifold{} : crossed.manifold;
 }
 
