@@ -56,8 +56,8 @@ inline constexpr std::size_t k_max_joint_rows = 2 * k_joint_axes;
 
 struct JointRows {
   std::span<JointRow> rows;  // room for them
-  std::size_t locks = 0;     // these come first
-  std::size_t count = 0;
+  std::uint8_t locks = 0;    // these come first
+  std::uint8_t count = 0;
   bool is_point = false;  // the first three lock the axes of the world
 };
 

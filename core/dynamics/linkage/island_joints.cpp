@@ -57,7 +57,7 @@ void IslandJoints::give(const JointRun& run, std::uint32_t index, const RowImpul
     LKS_ASSERT(row.kind != RowKind::drive);  // the problem has locks and limits
     std::int64_t& total = joint.locks[row.axis];
     total = bounded(total + (row.flipped ? -impulses[i] : impulses[i]), k_product_bound);
-    end = std::max(i + 1, joint.rows.locks);
+    end = std::max<std::size_t>(i + 1, joint.rows.locks);
   }
   if (end == 0) return;
   const std::array<std::uint32_t, 2> ends = {joint.a, joint.b};

@@ -40,7 +40,7 @@ void repeat_impulses(const JointRun& run, LinkedJoint& joint) {
   std::size_t end = joint.rows.count;
   while (end > 0 && impulses[end - 1] == 0)
     --end;
-  if (end > 0) push(run, joint, 0, std::max(end, joint.rows.locks), impulses);
+  if (end > 0) push(run, joint, 0, std::max<std::size_t>(end, joint.rows.locks), impulses);
 }
 
 // Whether a body of the group turns by more than 2^-shift rad in a substep.

@@ -126,7 +126,7 @@ void leave_out_far_limits(const JointRun& run, const TimeStep& step, LinkedJoint
     ++kept;
   }
   LKS_ASSERT(kept >= rows.locks && kept <= rows.count);
-  rows.count = kept;
+  rows.count = static_cast<std::uint8_t>(kept);
   joint.holds_a_point = holds_a_point(*joint.record, joint.far);
 }
 

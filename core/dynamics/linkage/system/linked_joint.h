@@ -59,6 +59,7 @@ struct LinkedJoint {
   BlockFloat inverse_mass{};              // of the pair
   std::int64_t lever_a = 0, lever_b = 0;  // to the anchors, m, Q20: sums of their components
   int exponent = 0;                       // of angular rows
+  std::int32_t energy_gained = 0;         // of its cluster, if it is the first one there
 
   std::array<InverseResponse, k_max_joint_rows> inverse_responses{};  // of limits and drives
   std::array<JointDrive, k_joint_axes> drives{};
@@ -71,8 +72,6 @@ struct LinkedJoint {
   AxisImpulses driven_later{};                         // of drives, after it
   std::array<std::int64_t, k_joint_axes> left_open{};  // of locks, by row: too far to close in the
                                                        // substep, m, Q32
-
-  std::int32_t energy_gained = 0;  // of its cluster, if it is the first one there
 
   std::uint64_t factored = 0;  // rows that the factor has, as a list of `list_rows`
   std::uint32_t left_out = 0;  // rows, a bit each, without impulses from the factor of loops
