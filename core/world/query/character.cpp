@@ -91,25 +91,42 @@ class Mover {
   }
 
   // Until the skin is free, the deepest overlaps included: each plane pushes by the rest that the
-  // others have not provided.
+  // others have not provided. Between obstacles that leave no room for the skin it stays where the
+  // nearest of them is farthest.
   void push_out() {
-    std::array<ShapeContact, k_max_planes> contacts;
-    for (int round = 0; round < k_max_push_outs; ++round) {
-      const std::size_t count =
-          obstacles_.contacts(move_.position, def_.skin + k_negligible, contacts);
-      Vec3<Length> out{};
-      for (std::size_t i = 0; i < count; ++i) {
-        const Length separation = rounded<Length>(contacts[i].separation);
-        const Length missing = def_.skin - separation - along(out, contacts[i].normal);
-        if (missing > Length{}) out += times(contacts[i].normal, missing);
-        if (round > 0) continue;
-        note({contacts[i].body, contacts[i].point, contacts[i].normal, {}});
-        if (is_walkable(contacts[i].normal))
-          stand_on(contacts[i].body, contacts[i].normal, contacts[i].point);
+    Vec3<Position> best = move_.position;
+    Length most = Length::min();
+    for (int round = 0; round <= k_max_push_outs; ++round) {
+      const PushOut push = find_push_out(round == 0);
+      if (push.least > most) {
+        most = push.least;
+        best = move_.position;
       }
-      if (is_negligible(out)) return;
-      move_.position = moved(move_.position, out);
+      if (is_negligible(push.way)) break;
+      move_.position = moved(move_.position, push.way);
     }
+    move_.position = best;
+  }
+
+  struct PushOut {
+    Vec3<Length> way;
+    Length least = Length::max();  // separation of an obstacle
+  };
+  PushOut find_push_out(bool notes) {
+    std::array<ShapeContact, k_max_planes> contacts;
+    const std::size_t count =
+        obstacles_.contacts(move_.position, def_.skin + k_negligible, contacts);
+    PushOut push;
+    for (const ShapeContact& contact : std::span(contacts).first(count)) {
+      const Length separation = rounded<Length>(contact.separation);
+      push.least = min(push.least, separation);
+      const Length missing = def_.skin - separation - along(push.way, contact.normal);
+      if (missing > Length{}) push.way += times(contact.normal, missing);
+      if (!notes) continue;
+      note({contact.body, contact.point, contact.normal, {}});
+      if (is_walkable(contact.normal)) stand_on(contact.body, contact.normal, contact.point);
+    }
+    return push;
   }
 
   // The part of a motion in which nothing is in the way, less the skin.
