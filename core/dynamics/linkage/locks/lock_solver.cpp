@@ -57,6 +57,10 @@ constexpr std::int64_t k_noise = 128;
 // Openings whose squares fit, 0.25 m.
 constexpr std::int64_t k_wide = std::int64_t{1} << 30;
 
+// Before the first solve a factor of earlier rows is not used for errors above this, m/s, Q50: a link
+// turned far in the substep, and the factor could add to its speed.
+constexpr std::int64_t k_far_speed = std::int64_t{4} << 50;
+
 // Joints of groups without a direct solve close this part of an opening in a substep.
 constexpr int k_close_shift = 2;
 
@@ -291,7 +295,8 @@ void LockSolver::lock_speed(const JointRun& run, JointGroup& group, int pass) {
       (is_driven || (group.only_locks && std::ranges::any_of(system_.bodies_of(group), is_pulled)));
   if (!always && group.speed <= (pass == 0 ? k_still : slow)) return;
   const int fall_bits = loops ? k_loop_fall_bits : k_tree_fall_bits;
-  const bool is_slow = pass == 0 ? group.turns_fast : group.speed > before >> fall_bits;
+  const bool is_slow =
+      pass == 0 ? group.turns_fast || group.speed > k_far_speed : group.speed > before >> fall_bits;
   if (is_slow && !group.is_fresh && group.is_direct) {
     factor(run, group, false);
     group.turns_fast = true;
