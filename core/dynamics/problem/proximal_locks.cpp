@@ -16,6 +16,10 @@ namespace {
 // they are.
 constexpr int k_lock_give_bits = BodyFactor::k_least_bits;
 
+// Impulses so far count with 2^-this of γ. At once they meet γ; in further solves, as many as it
+// takes, they come to what so much less would give.
+constexpr int k_less_give_bits = 4;
+
 // Right-hand sides are below 2^27 units at first; where the solution does not fit in 31 bits, units
 // are coarser.
 constexpr int k_first_bits = 27, k_fewer_bits = 4, k_least_bits = 7;
@@ -144,7 +148,8 @@ void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t r
                          std::int64_t impulse) {
   Joint& on = joints_[groups_[group].first_joint + joint];
   if (impulse != 0 && on.uses(row))
-    on.errors[row] += bounded(on.own[row].times(impulse, k_lock_give_bits), k_row_bound);
+    on.errors[row] +=
+        bounded(on.own[row].times(impulse, k_lock_give_bits + k_less_give_bits), k_row_bound);
 }
 
 // −Jᵀ·r/γ, times 2^-14. Errors are below 2^27 units, so sums of a joint's rows fit.

@@ -2,8 +2,9 @@
 //
 // In a loop some locks repeat others. With a compliance γ there is one solution for the errors r:
 // λ = −(A + γ)⁻¹·r, A = J·M⁻¹·Jᵀ. It is found by way of velocities: (1 + Jᵀ·J/γ)·x = −Jᵀ·r/γ and
-// λ = −(r + J·x)/γ. The compliance pulls impulses towards 0 and not towards the last ones: else
-// impulses of locks against each other would add up, solve after solve.
+// λ = −(r + J·x)/γ. Another solve adds to those impulses, and then a part of the compliance of the
+// first ones counts as an error: rows become stiffer, and impulses of locks against each other do
+// not add up without limit.
 //
 // Source: J. Carpentier, R. Budhiraja, N. Mansard, "Proximal and sparse resolution of constrained
 // dynamic equations", 2021.
@@ -59,8 +60,8 @@ class ProximalLocks {
     return joints_[groups_[group].first_joint + joint].errors;
   }
 
-  /// Adds the compliance of a row times its whole impulse so far (the pair's velocity jump, Q50) to
-  /// its error, so that impulses of rows against each other do not grow.
+  /// Adds a sixteenth of the compliance of a row times its whole impulse so far (the pair's velocity
+  /// jump, Q50) to its error, so that impulses of rows against each other do not grow.
   void give(std::uint32_t group, std::uint32_t joint, std::size_t row, std::int64_t impulse);
 
   /// Takes the errors away, as far as one solve does: finds the impulses of all rows.

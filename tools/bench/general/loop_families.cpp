@@ -65,6 +65,50 @@ void fill_ring(SceneMaker& m) {
   m.judge(Judge::gap, 0.01, 8);
 }
 
+// A chain of light links, some fastened far beside their centres, holds a closed ring of heavier
+// boxes.
+void fill_weak_link(SceneMaker& m) {
+  const int links = m.count(1, 3), n = m.count(3, 8);
+  const double half = m.random.between(0.1, 0.4), radius = half / std::tan(k_pi / n);
+  const double ratio = m.random.log_between(1, 2000), size = m.random.log_between(0.02, 0.2);
+  const Link held = m.random.chance(0.3) ? Link::weld : ball_or_hinge(m);
+  double top = 0;
+  int before = m.anchor({0, 0, 0});
+  const double ring_mass = 1000 * 8 * 0.9 * half * 0.2 * half * 0.3 * half * n;
+  const double lever = m.random.between(0, 0.5);
+  for (int i = 0; i < links; ++i) {
+    const Triple beside = m.jitter(lever);
+    const int link =
+        m.box({0.3 * size, 0.9 * size, 0.3 * size}, Triple{beside[0], top - size + beside[1], beside[2]});
+    m.set_mass(link, ring_mass / ratio);
+    m.join(i == 0 ? held : ball_or_hinge(m), before, link, {0, top, 0});
+    top -= 2 * size;
+    before = link;
+  }
+  std::vector<int> boxes;
+  const double centre = top - radius;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * k_pi * i / n;
+    const int box = m.box({0.9 * half, 0.2 * half, 0.3 * half},
+                          {radius * std::sin(angle), centre + radius * std::cos(angle), 0});
+    m.turn(box, general::turn_about({0, 0, 1}, -angle));
+    boxes.push_back(box);
+  }
+  const double corner = half / std::sin(k_pi / n);
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * k_pi * (i + 0.5) / n;
+    m.join(Link::hinge, boxes[static_cast<std::size_t>(i)],
+           boxes[static_cast<std::size_t>((i + 1) % n)],
+           {corner * std::sin(angle), centre + corner * std::cos(angle), 0});
+  }
+  m.join(Link::ball, before, boxes[0], {0, top, 0});
+  const double push = m.random.between(0, 2);
+  for (const int box : boxes)
+    m.body(box).velocity = {push, 0, 0};
+  hang(m, 2 * size * links + n * 2 * half);
+  m.judge(Judge::gap, 0.01, 8);
+}
+
 // Plates joined at the middle of their edges, hung by two corners.
 void fill_net(SceneMaker& m) {
   const int n = m.count(2, 5);
@@ -176,6 +220,8 @@ void add_loop_families(std::vector<Family>& all) {
   all.insert(all.end(),
              {{"span", "2-20 planks straight between two fixed ends", fill_span},
               {"ring", "closed ring of 3-24 boxes, parallel hinges or balls, hung", fill_ring},
+              {"weak-link", "1-3 light links hold a ring of 3-8 boxes, up to 2000 : 1",
+               fill_weak_link},
               {"net", "net of 2 x 2 to 5 x 5 plates hung by two corners", fill_net},
               {"chain", "open chain of 2-60 links, end up to 500 : 1", fill_chain},
               {"pendulum", "1-4 rods that swing for 20 s", fill_pendulum},
