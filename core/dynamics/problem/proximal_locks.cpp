@@ -16,9 +16,9 @@ namespace {
 // they are.
 constexpr int k_lock_give_bits = BodyFactor::k_least_bits;
 
-// Impulses so far count with 2^-this of γ. At once they meet γ; in further solves, as many as it
-// takes, they come to what so much less would give.
-constexpr int k_less_give_bits = 4;
+// In further solves the impulses so far count with 2^-this of γ, so that each brings them nearer to
+// those of so much less compliance.
+constexpr int k_less_give_bits = 6;
 
 // Right-hand sides are below 2^27 units at first; where the solution does not fit in 31 bits, units
 // are coarser.
