@@ -8,9 +8,11 @@
 #include <lockstone.h>
 
 #include <lockstone/fit.h>
+#include <lockstone/hull.h>
 #include <lockstone/literals.h>
 #include <lockstone/replay/recorder.h>
 #include <lockstone/replay/verifier.h>
+#include <lockstone/shape_pair.h>
 
 #include "tools/bindings/c/call.h"
 #include "tools/scenes/play.h"
@@ -82,6 +84,56 @@ TEST(CLibrary, FitsTheShapesOfTheCore) {
   EXPECT_EQ(pose.orientation.w, fitted.orientation.w.raw);
   EXPECT_EQ(lks_fit(LKS_HULL, raw.data(), raw.size(), &shape, &pose), LKS_INVALID_ARGUMENT);
   EXPECT_EQ(lks_fit(LKS_BOX, raw.data(), 0, &shape, &pose), LKS_INVALID_ARGUMENT);
+}
+
+// A hull of the set 3 m above a ball.
+struct TwoShapes {
+  lks_assets* assets = nullptr;
+  std::uint64_t hull = 0;
+  lks_placed_shape a{};
+  lks_placed_shape b{};
+
+  TwoShapes() {
+    constexpr std::int32_t k_metre = 1 << 20;
+    const std::vector<lks_length3> points{
+        {k_metre, 0, 0}, {-k_metre, 0, 0}, {0, k_metre, 0}, {0, 0, k_metre}};
+    EXPECT_EQ(lks_assets_create(&assets), LKS_OK);
+    EXPECT_EQ(lks_assets_add_hull(assets, points.data(), points.size(), 64, &hull), LKS_OK);
+    a = {lks_sphere(k_metre / 2), {{0, 0, 0}, lks_quat_identity()}};
+    b = {lks_shape_of(LKS_HULL, 0, 0, 0, hull),
+         {{0, std::int64_t{3} << 32, 0}, lks_quat_identity()}};
+  }
+  ~TwoShapes() { lks_assets_destroy(assets); }
+};
+
+TEST(CLibrary, ComparesTwoShapesAsTheCoreDoes) {
+  const TwoShapes two;
+  lks_shape_gap gap;
+  ASSERT_EQ(lks_shape_distance(two.assets, &two.a, &two.b, 4 << 20, &gap), LKS_OK);
+  EXPECT_EQ(gap.found, 1u);
+  EXPECT_EQ(gap.overlapping, 0u);
+  EXPECT_EQ(gap.distance, std::int64_t{5} << 31);
+  EXPECT_EQ(gap.normal.y, 1 << 30);
+  EXPECT_EQ(gap.point_a.y, std::int64_t{1} << 31);
+  EXPECT_EQ(gap.point_b.y, std::int64_t{3} << 32);
+
+  const lks_length3 way{0, -(4 << 20), 0};
+  lks_shape_hit hit;
+  ASSERT_EQ(lks_shape_cast(two.assets, &two.a, &two.b, &way, &hit), LKS_OK);
+  EXPECT_EQ(hit.hit, 1u);
+  EXPECT_NEAR(hit.fraction / 1073741824.0, 0.625, 1e-6);
+  lks_pose end = two.b.pose;
+  end.position.y = -(std::int64_t{1} << 32);
+  const lks_pose& still = two.a.pose;
+  ASSERT_EQ(lks_shape_impact(two.assets, &two.a, &still, &two.b, &end, 512, &hit), LKS_OK);
+  EXPECT_EQ(hit.hit, 1u);
+  EXPECT_NEAR(hit.fraction / 1073741824.0, 0.625, 0.0006);
+  EXPECT_EQ(hit.normal.y, 1 << 30);
+
+  EXPECT_EQ(lks_shape_distance(nullptr, &two.a, &two.b, 0, &gap), LKS_NOT_FOUND);
+  EXPECT_EQ(lks_shape_distance(two.assets, &two.a, &two.b, -1, &gap), LKS_INVALID_ARGUMENT);
+  EXPECT_EQ(lks_shape_impact(two.assets, &two.a, &still, &two.b, &end, 7, &hit),
+            LKS_INVALID_ARGUMENT);
 }
 
 TEST(CLibrary, SettingsOfBodiesHaveTheNumbersOfTheCore) {

@@ -46,7 +46,7 @@ PUBLIC_MODULES = {
                  "mesh.h", "path.h", "shape.h"],
     "collision": ["collision.h"],
     "dynamics": ["body.h", "fluid.h", "joint.h", "rules.h", "terrain.h", "vehicle.h"],
-    "world": ["character.h", "command.h", "contacts.h", "debug_draw.h", "drag.h", "event.h", "predicted_events.h", "profile.h", "query.h", "radial_impulse.h", "ragdoll.h", "rollback_history.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],
+    "world": ["character.h", "command.h", "contacts.h", "debug_draw.h", "drag.h", "event.h", "predicted_events.h", "profile.h", "query.h", "radial_impulse.h", "ragdoll.h", "rollback_history.h", "shape_pair.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],
 }
 # For tools and tests only, so it sees everything and no library may include it.
 TESTING = "core/include/lockstone/testing/"

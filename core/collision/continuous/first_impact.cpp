@@ -2,10 +2,10 @@
 
 #include <lockstone/assert.h>
 
+#include "core/collision/continuous/piece_sweep.h"
 #include "core/collision/continuous/shrunk_core.h"
 #include "core/collision/narrow_phase/pieces.h"
 #include "core/math/roots.h"
-#include "core/math/rotation_log.h"
 
 namespace lockstone {
 namespace {
@@ -14,34 +14,6 @@ PlacedShape placed_at_start(const MovingShape& moving) {
   return place(moving.shape, moving.asset, moving.motion.start.position,
                to_matrix(moving.motion.start.orientation));
 }
-
-// The motion of the body as one of the piece's axes about the body's centre of mass.
-struct PieceSweep {
-  Sweep sweep;
-  Vec3<Length> origin;
-
-  PieceSweep(const Piece& piece, const Sweep& motion)
-      : sweep{{motion.start.position, orientation_of(piece.rotation)},
-              motion.translation,
-              motion.rotation} {
-    const Vec3<Position> apart = piece.origin - motion.start.position;
-    if (is_near(apart)) {
-      origin = rotate_inverse(piece.rotation, saturated<Length>(apart));
-    } else if (motion.rotation == RotationVector{}) {
-      sweep.start.position = piece.origin;
-    } else {
-      origin = saturated<Length>(rotate_inverse(piece.rotation, apart));
-    }
-  }
-
- private:
-  // Whether it fits a Length however it is turned. A half-space, which is a box wherever something
-  // comes near it, may begin anywhere.
-  static bool is_near(const Vec3<Position>& apart) {
-    constexpr Position k_near = Position::from_integer(1000);
-    return max(max(abs(apart.x), abs(apart.y)), abs(apart.z)) <= k_near;
-  }
-};
 
 // Thin pieces are stopped nearer to the surface.
 TimeOfImpactLimits limits_for(Length inner_radius) {

@@ -129,17 +129,6 @@ PlacedShape met_near(const PlacedShape& placed, const Vec3<Position>& point) {
   return near;
 }
 
-// Calls `f(piece)` for every piece of A near B.
-template <class F>
-class EachPiece final : public PieceVisitor {
- public:
-  explicit EachPiece(F& f) : f_(f) {}
-  void visit(const Piece& piece) override { f_(piece); }
-
- private:
-  F& f_;
-};
-
 template <class F>
 void for_each_piece_of_a(const BodyPair& pair, F&& f) {
   if (is_single(pair.a)) return f(single_piece(pair.a));

@@ -30,6 +30,17 @@ class PieceVisitor {
   ~PieceVisitor() = default;
 };
 
+/// Calls `f(piece)`.
+template <class F>
+class EachPiece final : public PieceVisitor {
+ public:
+  explicit EachPiece(F& f) : f_(f) {}
+  void visit(const Piece& piece) override { f_(piece); }
+
+ private:
+  F& f_;
+};
+
 /// The bounds, in a placed asset's frame, of the asset's part near a box.
 struct OrientedBox;
 [[nodiscard]] geometry::LocalBounds local_region(const PlacedShape& placed,

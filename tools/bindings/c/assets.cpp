@@ -5,6 +5,7 @@
 #include <lockstone/hull.h>
 #include <lockstone/load_asset.h>
 #include <lockstone/path.h>
+#include <lockstone/shape_pair.h>
 
 #include "tools/bindings/c/convert.h"
 #include "tools/bindings/c/handles.h"
@@ -41,7 +42,78 @@ void add_path(lks_assets& assets, std::span<const PathPoint> points, std::span<c
   name = result.path->id().value;
 }
 
+// A shape with its asset, if the set has it; its place is for the function to check.
+ShapeAt shape_at(const lks_assets* assets, const lks_placed_shape* raw, std::string_view field) {
+  const lks_placed_shape& from = required(raw, field);
+  ShapeAt at{shape_of(from.shape, field),
+             {vec<Position>(from.pose.position), quat_of(from.pose.orientation)},
+             nullptr};
+  if (!is_asset(at.shape.kind)) return at;
+  for (const AssetPtr& asset : assets == nullptr ? std::vector<AssetPtr>{} : assets->list) {
+    if (asset->id() == at.shape.asset) at.asset = asset.get();
+  }
+  if (at.asset == nullptr) throw Failure{LKS_NOT_FOUND, "the set has no such asset"};
+  return at;
+}
+
+Transform end_of(const lks_pose* raw, std::string_view field) {
+  const lks_pose& pose = required(raw, field);
+  return {vec<Position>(pose.position), quat_of(pose.orientation)};
+}
+
+template <class Found>
+const Found& found_in(const Result<Found>& result) {
+  if (!result) throw invalid("shapes", "a size, a place, a length or the pair is out of range");
+  return result.value();
+}
+
+lks_shape_hit hit_of(const ShapeImpact& hit) {
+  return {raw_of(hit.point_a), hit.fraction.raw,  raw_of(hit.normal),       hit.part_a,
+          hit.part_b,          hit.hit ? 1u : 0u, hit.overlapping ? 1u : 0u};
+}
+
 }  // namespace
+
+lks_status lks_shape_distance(const lks_assets* assets, const lks_placed_shape* a,
+                              const lks_placed_shape* b, lks_length reach, lks_shape_gap* out) {
+  return call([&] {
+    required(out, "out");
+    const Result<ShapeDistance> result =
+        shape_distance(shape_at(assets, a, "a"), shape_at(assets, b, "b"), Length::from_raw(reach));
+    const ShapeDistance& found = found_in(result);
+    *out = {found.distance.raw,
+            raw_of(found.point_a),
+            raw_of(found.point_b),
+            raw_of(found.normal),
+            found.part_a,
+            found.part_b,
+            found.found ? 1u : 0u,
+            found.overlapping ? 1u : 0u,
+            0};
+  });
+}
+
+lks_status lks_shape_cast(const lks_assets* assets, const lks_placed_shape* a,
+                          const lks_placed_shape* b, const lks_length3* way, lks_shape_hit* out) {
+  return call([&] {
+    required(out, "out");
+    const Result<ShapeImpact> result = shape_cast(
+        shape_at(assets, a, "a"), shape_at(assets, b, "b"), vec<Length>(required(way, "way")));
+    *out = hit_of(found_in(result));
+  });
+}
+
+lks_status lks_shape_impact(const lks_assets* assets, const lks_placed_shape* a,
+                            const lks_pose* end_a, const lks_placed_shape* b, const lks_pose* end_b,
+                            lks_length gap, lks_shape_hit* out) {
+  return call([&] {
+    required(out, "out");
+    const Result<ShapeImpact> result =
+        shape_impact({shape_at(assets, a, "a"), end_of(end_a, "end_a")},
+                     {shape_at(assets, b, "b"), end_of(end_b, "end_b")}, Length::from_raw(gap));
+    *out = hit_of(found_in(result));
+  });
+}
 
 lks_status lks_fit(uint32_t kind, const lks_length3* points, size_t count, lks_shape* shape,
                    lks_pose* pose) {

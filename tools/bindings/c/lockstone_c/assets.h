@@ -122,6 +122,59 @@ LKS_API lks_status lks_assets_add_rounded_hull(lks_assets* assets, const lks_len
 LKS_API lks_status lks_assets_add_bytes(lks_assets* assets, const void* bytes, size_t count,
                                         uint64_t* out);
 
+/* Two shapes without a world. A call takes their assets from the set, which may be null where no
+ * shape names one. LKS_INVALID_ARGUMENT for a shape or place out of range, for frames more than
+ * 1000 m apart along an axis (the plane of a half-space as far), and for a pair that the function
+ * does not take; LKS_NOT_FOUND for an asset that is not in the set. */
+typedef struct lks_placed_shape {
+  lks_shape shape;
+  lks_pose pose; /* of the shape's frame */
+} lks_placed_shape;
+
+/* The closest points of A and B. */
+typedef struct lks_shape_gap {
+  lks_position distance; /* 0 when overlapping */
+  lks_position3 point_a; /* on A's surface; zero when overlapping */
+  lks_position3 point_b;
+  lks_unit3 normal; /* from A to B; zero when overlapping */
+  uint32_t part_a;  /* triangle, cell or child */
+  uint32_t part_b;
+  uint32_t found;       /* 1: the distance is at most `reach`; else all is 0 */
+  uint32_t overlapping; /* 1: they share a point */
+  uint32_t reserved;    /* 0 */
+} lks_shape_gap;
+
+/* `reach` is 0 … 512 m. One of the two at least is a primitive, a hull or a compound. Error ≤ 2 µm.
+ * Of equal distances that of the lowest part of A counts, then of B. */
+LKS_API lks_status lks_shape_distance(const lks_assets* assets, const lks_placed_shape* a,
+                                      const lks_placed_shape* b, lks_length reach,
+                                      lks_shape_gap* out);
+
+/* When A and B meet. */
+typedef struct lks_shape_hit {
+  lks_position3 point_a; /* on A's surface then */
+  lks_unit fraction;     /* of the way, 0 … 1 */
+  lks_unit3 normal;      /* from A to B; may be zero when overlapping */
+  uint32_t part_a;
+  uint32_t part_b;
+  uint32_t hit;         /* 0 or 1 */
+  uint32_t overlapping; /* 1: at the start; the fraction is 0 */
+} lks_shape_hit;
+
+/* Moves B, a primitive or a hull, along `way` (within ±512 m along each axis); A rests. Within 2
+ * µm. */
+LKS_API lks_status lks_shape_cast(const lks_assets* assets, const lks_placed_shape* a,
+                                  const lks_placed_shape* b, const lks_length3* way,
+                                  lks_shape_hit* out);
+
+/* Moves both evenly to the poses `end_a` and `end_b` (within ±512 m of their starts along each
+ * axis), by the shortest turns, until they are as near as `gap`, 8 µm … 1 m, or 5/4 of it.
+ * Primitives, hulls and compounds. Before the fraction the distance is not below the gap by more
+ * than 3 µm and 1e-8 of the sizes. */
+LKS_API lks_status lks_shape_impact(const lks_assets* assets, const lks_placed_shape* a,
+                                    const lks_pose* end_a, const lks_placed_shape* b,
+                                    const lks_pose* end_b, lks_length gap, lks_shape_hit* out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -218,6 +218,63 @@ class lks_path_point(Structure):
     ]
 
 
+class lks_i64x3(Structure):
+    _fields_ = [
+        ("x", c_int64),
+        ("y", c_int64),
+        ("z", c_int64),
+    ]
+
+
+class lks_quat(Structure):
+    _fields_ = [
+        ("x", c_int32),
+        ("y", c_int32),
+        ("z", c_int32),
+        ("w", c_int32),
+    ]
+
+
+class lks_pose(Structure):
+    _fields_ = [
+        ("position", lks_i64x3),
+        ("orientation", lks_quat),
+    ]
+
+
+class lks_placed_shape(Structure):
+    _fields_ = [
+        ("shape", lks_shape),
+        ("pose", lks_pose),
+    ]
+
+
+class lks_shape_gap(Structure):
+    _fields_ = [
+        ("distance", c_int64),
+        ("point_a", lks_i64x3),
+        ("point_b", lks_i64x3),
+        ("normal", lks_i32x3),
+        ("part_a", c_uint32),
+        ("part_b", c_uint32),
+        ("found", c_uint32),
+        ("overlapping", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class lks_shape_hit(Structure):
+    _fields_ = [
+        ("point_a", lks_i64x3),
+        ("fraction", c_int32),
+        ("normal", lks_i32x3),
+        ("part_a", c_uint32),
+        ("part_b", c_uint32),
+        ("hit", c_uint32),
+        ("overlapping", c_uint32),
+    ]
+
+
 class lks_surface(Structure):
     _fields_ = [
         ("friction", c_int32),
@@ -242,23 +299,6 @@ class lks_filter(Structure):
         ("category", c_uint32),
         ("mask", c_uint32),
         ("group", c_int32),
-    ]
-
-
-class lks_i64x3(Structure):
-    _fields_ = [
-        ("x", c_int64),
-        ("y", c_int64),
-        ("z", c_int64),
-    ]
-
-
-class lks_quat(Structure):
-    _fields_ = [
-        ("x", c_int32),
-        ("y", c_int32),
-        ("z", c_int32),
-        ("w", c_int32),
     ]
 
 
@@ -587,13 +627,6 @@ class lks_closest(Structure):
         ("point", lks_i64x3),
         ("distance", c_int32),
         ("part", c_uint32),
-    ]
-
-
-class lks_pose(Structure):
-    _fields_ = [
-        ("position", lks_i64x3),
-        ("orientation", lks_quat),
     ]
 
 
@@ -1018,6 +1051,9 @@ FUNCTIONS = {
     "lks_assets_add_banked_path": [c_int32, c_void_p, POINTER(lks_path_point), POINTER(c_int32), c_size_t, c_uint32, POINTER(c_uint64)],
     "lks_assets_add_rounded_hull": [c_int32, c_void_p, POINTER(lks_i32x3), c_size_t, c_int32, c_int32, POINTER(c_uint64)],
     "lks_assets_add_bytes": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_uint64)],
+    "lks_shape_distance": [c_int32, c_void_p, POINTER(lks_placed_shape), POINTER(lks_placed_shape), c_int32, POINTER(lks_shape_gap)],
+    "lks_shape_cast": [c_int32, c_void_p, POINTER(lks_placed_shape), POINTER(lks_placed_shape), POINTER(lks_i32x3), POINTER(lks_shape_hit)],
+    "lks_shape_impact": [c_int32, c_void_p, POINTER(lks_placed_shape), POINTER(lks_pose), POINTER(lks_placed_shape), POINTER(lks_pose), c_int32, POINTER(lks_shape_hit)],
     "lks_status_name": [c_char_p, c_int32],
     "lks_last_error": [c_char_p],
     "lks_c_abi": [c_uint32],

@@ -20,6 +20,39 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_placed_shape
+    {
+        public lks_shape shape;
+        public lks_pose pose;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_shape_gap
+    {
+        public long distance;
+        public lks_i64x3 point_a;
+        public lks_i64x3 point_b;
+        public lks_i32x3 normal;
+        public uint part_a;
+        public uint part_b;
+        public uint found;
+        public uint overlapping;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_shape_hit
+    {
+        public lks_i64x3 point_a;
+        public int fraction;
+        public lks_i32x3 normal;
+        public uint part_a;
+        public uint part_b;
+        public uint hit;
+        public uint overlapping;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_surface
     {
         public int friction;
@@ -1153,6 +1186,15 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_bytes(IntPtr assets, void* bytes, UIntPtr count, ulong* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_shape_distance(IntPtr assets, lks_placed_shape* a, lks_placed_shape* b, int reach, lks_shape_gap* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_shape_cast(IntPtr assets, lks_placed_shape* a, lks_placed_shape* b, lks_i32x3* way, lks_shape_hit* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_shape_impact(IntPtr assets, lks_placed_shape* a, lks_pose* end_a, lks_placed_shape* b, lks_pose* end_b, int gap, lks_shape_hit* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern byte* lks_status_name(int status);

@@ -285,6 +285,36 @@ pub struct lks_path_point {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct lks_placed_shape {
+    pub shape: lks_shape,
+    pub pose: lks_pose,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_shape_gap {
+    pub distance: lks_position,
+    pub point_a: lks_position3,
+    pub point_b: lks_position3,
+    pub normal: lks_unit3,
+    pub part_a: u32,
+    pub part_b: u32,
+    pub found: u32,
+    pub overlapping: u32,
+    pub reserved: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_shape_hit {
+    pub point_a: lks_position3,
+    pub fraction: lks_unit,
+    pub normal: lks_unit3,
+    pub part_a: u32,
+    pub part_b: u32,
+    pub hit: u32,
+    pub overlapping: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct lks_surface {
     pub friction: lks_unit,
     pub restitution: lks_unit,
@@ -1033,6 +1063,9 @@ extern "C" {
     pub fn lks_assets_add_banked_path(assets: *mut lks_assets, points: *const lks_path_point, banks: *const lks_angle, count: usize, closed: u32, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_rounded_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, radius: lks_length, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_bytes(assets: *mut lks_assets, bytes: *const c_void, count: usize, out: *mut u64) -> lks_status;
+    pub fn lks_shape_distance(assets: *const lks_assets, a: *const lks_placed_shape, b: *const lks_placed_shape, reach: lks_length, out: *mut lks_shape_gap) -> lks_status;
+    pub fn lks_shape_cast(assets: *const lks_assets, a: *const lks_placed_shape, b: *const lks_placed_shape, way: *const lks_length3, out: *mut lks_shape_hit) -> lks_status;
+    pub fn lks_shape_impact(assets: *const lks_assets, a: *const lks_placed_shape, end_a: *const lks_pose, b: *const lks_placed_shape, end_b: *const lks_pose, gap: lks_length, out: *mut lks_shape_hit) -> lks_status;
     pub fn lks_status_name(status: lks_status) -> *const c_char;
     pub fn lks_last_error() -> *const c_char;
     pub fn lks_c_abi() -> u32;
