@@ -119,6 +119,8 @@ class Worlds(unittest.TestCase):
         self.assertAlmostEqual(float(hit.point[1]), 10.25)
         self.assertIsNone(world.cast_ray((5, 20, 0), (0, 15, 0)))
         self.assertEqual(world.overlap_sphere((0, 10, 0), 1), [ball])
+        self.assertEqual(world.bodies_in_box((-1, 9, -1), (1, 11, 1)), [ball])
+        self.assertEqual(world.bodies_in_box((5, 9, -1), (6, 11, 1)), [])
 
     def test_poses_are_views_of_the_world(self):
         world = small_world()

@@ -1,7 +1,9 @@
 // Questions to a world: read-only, safe from several threads at once, answers in canonical order.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <lockstone/body.h>
 #include <lockstone/shape.h>
@@ -14,8 +16,8 @@ namespace lockstone {
 /// Rays and casts reach at most this far along each axis.
 inline constexpr Length k_max_cast = Length::from_integer(512);
 
-/// Which bodies a query sees: those whose category is in `mask`, except `ignore`, for which
-/// `accept` (when given) returns true.
+/// Which bodies a query sees: those whose category is in `mask`, except `ignore`, that pass the tag
+/// and the list, and for which `accept` (when given) returns true.
 struct QueryFilter {
   std::uint32_t mask = 0xffffffff;
   BodyHandle ignore{};
@@ -25,7 +27,21 @@ struct QueryFilter {
   /// alone.
   bool (*accept)(void* context, BodyHandle body) = nullptr;
   void* context = nullptr;  ///< handed to `accept`
+
+  /// Only bodies whose own tag (BodyDef::material, not that of an asset's surface) is equal to
+  /// `tag` in the bits of `tag_mask`; of any tag where that is 0.
+  std::uint32_t tag_mask = 0;
+  std::uint32_t tag = 0;
+
+  /// At most k_max_filter_bodies, in any order: the bodies to leave out, or, with `only_listed`,
+  /// the only ones to look at. Read while the query runs. It is searched once for each body that
+  /// the query comes near: for long lists a tag or a category is faster.
+  std::span<const BodyHandle> bodies{};
+  bool only_listed = false;
 };
+
+/// Bodies that a QueryFilter may list.
+inline constexpr std::size_t k_max_filter_bodies = 64;
 
 struct Ray {
   Vec3<Position> origin{};

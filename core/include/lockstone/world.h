@@ -358,6 +358,9 @@ class World {
   friend class WorldTerrain;
   friend class RollbackHistory;
   friend Transform pose_of(const World& world, BodyHandle body);
+  friend std::size_t bodies_in_box(const World& world, const Vec3<Position>& lower,
+                                   const Vec3<Position>& upper, std::span<BodyHandle> out,
+                                   const QueryFilter& filter);
   explicit World(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
@@ -365,6 +368,14 @@ class World {
 /// The pose of a body's shape, as `World::body` gives it, for loops over all bodies: it computes
 /// nothing else. The body must exist.
 [[nodiscard]] Transform pose_of(const World& world, BodyHandle body);
+
+/// Bodies whose bounds overlap a closed box, by index, as many as `out` holds; returns how many
+/// were written. The bounds lie along the world's axes, rounded outward by at most 8 µm; those of
+/// an asset hold its own box, turned as the body is. Nothing finer is looked at. `lower` may not be
+/// above `upper`; both lie within ±k_world_limit.
+std::size_t bodies_in_box(const World& world, const Vec3<Position>& lower,
+                          const Vec3<Position>& upper, std::span<BodyHandle> out,
+                          const QueryFilter& filter = {});
 
 /// This build's hash of a short built-in scene. Two builds that differ here would diverge in a
 /// match.

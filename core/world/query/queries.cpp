@@ -13,10 +13,19 @@
 namespace lockstone {
 namespace {
 
+// Whether the list lets a body pass. Apart from `is_seen`: few filters have one.
+[[gnu::noinline]] bool passes_list(BodyHandle body, const QueryFilter& filter) {
+  if (filter.bodies.size() > k_max_filter_bodies)
+    misused("a query of World: the filter lists more than k_max_filter_bodies, 64, bodies");
+  return (std::ranges::find(filter.bodies, body) != filter.bodies.end()) == filter.only_listed;
+}
+
 // The mask is the broad phase's to check.
 bool is_seen(const BodyRecord& body, std::uint32_t index, const QueryFilter& filter) {
   const BodyHandle handle{index, body.generation};
   return handle != filter.ignore && (filter.triggers || !body.is_trigger()) &&
+         ((body.tag ^ filter.tag) & filter.tag_mask) == 0 &&
+         ((filter.bodies.empty() && !filter.only_listed) || passes_list(handle, filter)) &&
          (filter.accept == nullptr || filter.accept(filter.context, handle));
 }
 
@@ -192,6 +201,31 @@ void World::cast_shapes(std::span<const ShapeCast> casts, std::span<ShapeHit> ou
   if (casts.size() != out.size()) misused("World::cast_shapes: `out` must be as long as `casts`");
   for (std::size_t i = 0; i < casts.size(); ++i)
     out[i] = cast_shape(casts[i], filter);
+}
+
+std::size_t bodies_in_box(const World& world, const Vec3<Position>& lower,
+                          const Vec3<Position>& upper, std::span<BodyHandle> out,
+                          const QueryFilter& filter) {
+  for (int i = 0; i < 3; ++i) {
+    if (lower[i] > upper[i] || lower[i] < -k_world_limit || upper[i] > k_world_limit)
+      misused("bodies_in_box: `lower` must not be above `upper`, both within k_world_limit");
+  }
+  const WorldData& data = *world.impl_;
+  const Bounds box = bounds_of({lower, upper});
+  std::size_t count = 0;
+  const auto test = [&](const Bounds& bounds) { return overlap(box, bounds); };
+  const auto visit = [&](std::uint32_t index) {
+    const BodyRecord& body = data.bodies[index];
+    if (!is_seen(body, index, filter)) return;
+    // The broad phase has room for the motion of a tick besides.
+    const WorldBox tight = world_box(data.placed(index));
+    for (int i = 0; i < 3; ++i) {
+      if (tight.upper[i] < lower[i] || tight.lower[i] > upper[i]) return;
+    }
+    insert_sorted(BodyHandle{index, body.generation}, out, count, std::less<>());
+  };
+  data.broad_phase.traverse(filter.mask, test, visit);
+  return count;
 }
 
 std::size_t World::overlap_shape(const Shape& shape, const Transform& pose,

@@ -289,6 +289,11 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_overlap_sphere(world, NULL, 1 << 20, NULL, &out, 1, &count));
   NULLED(lks_overlap_sphere(world, &v, 1 << 20, NULL, NULL, 1, &count));
   NULLED(lks_overlap_sphere(world, &v, 1 << 20, NULL, &out, 1, NULL));
+  NULLED(lks_bodies_in_box(NULL, &v, &v, NULL, &out, 1, &count));
+  NULLED(lks_bodies_in_box(world, NULL, &v, NULL, &out, 1, &count));
+  NULLED(lks_bodies_in_box(world, &v, NULL, NULL, &out, 1, &count));
+  NULLED(lks_bodies_in_box(world, &v, &v, NULL, NULL, 1, &count));
+  NULLED(lks_bodies_in_box(world, &v, &v, NULL, &out, 1, NULL));
   NULLED(lks_overlap_shape(NULL, &shape, &pose, NULL, &out, 1, &count));
   NULLED(lks_overlap_shape(world, NULL, &pose, NULL, &out, 1, &count));
   NULLED(lks_overlap_shape(world, &shape, NULL, NULL, &out, 1, &count));

@@ -255,12 +255,29 @@ static void rays_and_shapes_find_bodies(void) {
   CHECK(count == 1 && hit.body == ball);
   OK(lks_overlap_sphere(world, &at, lks_length_mm(100), NULL, found, 4, &count));
   CHECK(count == 1 && found[0] == ball);
+  OK(lks_bodies_in_box(world, &at, &above, NULL, found, 4, &count));
+  CHECK(count == 1 && found[0] == ball);
+  REFUSED(LKS_INVALID_ARGUMENT, lks_bodies_in_box(world, &above, &at, NULL, found, 4, &count));
   OK(lks_closest_point(world, &above, lks_length_mm(20000), NULL, &closest));
   CHECK(closest.body == ball && lks_length_to_um(closest.distance) == 9750000);
   OK(lks_query_filter_init(&filter, sizeof filter));
   filter.ignore = ball;
   OK(lks_cast_ray(world, &above, &down, &filter, &hit));
   CHECK(hit.body == 0);
+  OK(lks_query_filter_init(&filter, sizeof filter));
+  filter.listed_count = 1;
+  filter.listed[0] = ball;
+  OK(lks_cast_ray(world, &above, &down, &filter, &hit));
+  CHECK(hit.body == 0);
+  filter.only_listed = 1;
+  OK(lks_cast_ray(world, &above, &down, &filter, &hit));
+  CHECK(hit.body == ball);
+  filter.tag_mask = 3;
+  filter.tag = 1;
+  OK(lks_cast_ray(world, &above, &down, &filter, &hit));
+  CHECK(hit.body == 0);
+  filter.listed_count = LKS_FILTER_BODIES + 1;
+  REFUSED(LKS_INVALID_ARGUMENT, lks_cast_ray(world, &above, &down, &filter, &hit));
   lks_world_destroy(world);
 }
 
@@ -505,10 +522,12 @@ static void scenes_go_back(void) {
   uint64_t before = 0, hash = 1;
   for (uint32_t kind = LKS_NATIVE; kind <= LKS_CANONICAL; ++kind) {
     OK(lks_world_create_scene("wall", 1, &world));
-    for (int tick = 0; tick < 5; ++tick) OK(lks_step(world, NULL));
+    for (int tick = 0; tick < 5; ++tick)
+      OK(lks_step(world, NULL));
     OK(lks_save(world, kind, state, sizeof state, &count));
     OK(lks_hash(world, &before));
-    for (int tick = 0; tick < 5; ++tick) OK(lks_step(world, NULL));
+    for (int tick = 0; tick < 5; ++tick)
+      OK(lks_step(world, NULL));
     OK(lks_load(world, kind, state, count));
     OK(lks_hash(world, &hash));
     CHECK(hash == before);

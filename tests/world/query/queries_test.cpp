@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <thread>
 #include <vector>
 
@@ -84,6 +86,88 @@ TEST(OverlapSphere, GivesTheLowestIndicesInOrder) {
   EXPECT_EQ(few[2], balls[2]);
   std::array<BodyHandle, 16> many{};
   EXPECT_EQ(world.overlap_sphere({}, 4.2_m, many), 5U);  // centres to 4.7 m
+}
+
+// The extents of a turned box along the world's axes, in floating point.
+Vec3<double> extents_of(const Vec3<double>& half, const Quat& turn) {
+  const Mat3 m = to_matrix(turn);
+  Vec3<double> reach{};
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row)
+      reach[row] += half[column] * std::abs(testing::to_double(m.column(column)[row]));
+  }
+  return reach;
+}
+
+TEST(BodiesInBox, AreThoseWhoseBoundsOverlapIt) {
+  World world = test::make_world();
+  test::Random random;
+  const auto within = [&](int most) {
+    return Position::from_ratio(random.between(-most, most), 64);
+  };
+  std::vector<Quat> turns;
+  const Vec3<double> half{0.5, 1, 1.5};
+  for (int i = 0; i < 200; ++i) {
+    const Position x = within(640);
+    const Position y = within(640);
+    const Position z = within(640);
+    BodyDef def = test::dynamic_body(Shape::box(0.5_m, 1_m, 1.5_m), x, y, z);
+    const auto part = [&] {
+      return Unit::from_raw(static_cast<std::int32_t>(random.between(-(1 << 29), 1 << 29)));
+    };
+    const Unit i_part = part();
+    const Unit j_part = part();
+    const Unit k_part = part();
+    def.orientation = normalized(Quat{i_part, j_part, k_part, Unit::from_ratio(1, 4)});
+    turns.push_back(def.orientation);
+    test::add(world, def);
+  }
+  std::size_t found_in_all = 0;
+  for (int i = 0; i < 200; ++i) {
+    Vec3<Position> lower, upper;
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = within(640);
+      upper[axis] = lower[axis] + abs(within(200));
+    }
+    std::array<BodyHandle, 256> found{};
+    const std::size_t count = bodies_in_box(world, lower, upper, found);
+    found_in_all += count;
+    std::size_t next = 0;
+    for (std::uint32_t index = 0; index < 200; ++index) {
+      const bool listed = next < count && found[next].index == index;
+      next += listed ? 1 : 0;
+      const Vec3<double> reach = extents_of(half, turns[index]);
+      double apart = -100;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double at = metres(world.position(world.body_at(index))[axis]);
+        apart = std::max(apart, metres(lower[axis]) - (at + reach[axis]));
+        apart = std::max(apart, at - reach[axis] - metres(upper[axis]));
+      }
+      EXPECT_TRUE(apart >= -1e-7 || listed) << apart;
+      EXPECT_TRUE(apart <= 1e-5 || !listed) << apart;
+    }
+    EXPECT_EQ(next, count);  // all of them, in order
+  }
+  EXPECT_GT(found_in_all, 200u);
+}
+
+TEST(BodiesInBox, AreTheFirstThatFitAndPassTheFilter) {
+  World world = test::make_world();
+  for (int i = 0; i < 4; ++i)
+    test::add(world, test::dynamic_body(Shape::sphere(0.5_m), Position::from_integer(i), {}, {}));
+  const Vec3<Position> corner{10_m, 10_m, 10_m};
+  std::array<BodyHandle, 2> found{};
+  ASSERT_EQ(bodies_in_box(world, -corner, corner, found), 2U);
+  EXPECT_EQ(found[1], world.body_at(1));
+  const BodyHandle first = world.body_at(0);
+  ASSERT_EQ(bodies_in_box(world, -corner, corner, found, {.ignore = first}), 2U);
+  EXPECT_EQ(found[0], world.body_at(1));
+  // The corner of the bounds of a ball holds nothing of it.
+  const Vec3<Position> beside{-0.49_m, 0.49_m, 0.49_m};
+  ASSERT_EQ(bodies_in_box(world, beside, beside, found), 1U);
+  EXPECT_EQ(found[0], first);
+  EXPECT_EQ(world.bodies_at(beside, found), 0U);
+  EXPECT_EQ(bodies_in_box(world, beside, beside, {}), 0U);
 }
 
 // A mixed world after some steps and some commands since.
@@ -256,6 +340,74 @@ TEST(CastRay, AsksTheCallerAboutEachBody) {
   };
   const RayHit hit = world.cast_ray({}, {12_m, {}, {}}, {.accept = accept, .context = &refused});
   EXPECT_EQ(hit.body, world.body_at(1));
+}
+
+// Every query with a filter as data, beside the same one with a callback that decides alike.
+TEST(Queries, FilterByTagAndListAsACallbackDoes) {
+  World world = world_in_motion(BroadPhaseKind::tree);
+  test::Random random;
+  std::vector<std::uint32_t> tags(world.body_limit());
+  for (std::uint32_t index = 1; index < 100; ++index) {
+    const BodyHandle body = world.body_at(index);
+    if (body.is_null()) continue;
+    Surface surface;
+    surface.tag = tags[index] = static_cast<std::uint32_t>(random.between(0, 7));
+    ASSERT_EQ(world.apply(SetMaterial{body, surface}), Status::ok);
+  }
+  struct Rule {
+    const std::vector<std::uint32_t>& tags;
+    const QueryFilter& filter;
+  };
+  const auto accept = [](void* context, BodyHandle body) {
+    const Rule& rule = *static_cast<Rule*>(context);
+    const std::uint32_t tag = rule.tags[body.index];
+    const bool listed = std::ranges::find(rule.filter.bodies, body) != rule.filter.bodies.end();
+    return (tag & rule.filter.tag_mask) == (rule.filter.tag & rule.filter.tag_mask) &&
+           listed == rule.filter.only_listed;
+  };
+  std::size_t all = 0;
+  std::size_t some = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<BodyHandle> list;
+    for (int k = 0; k < 20; ++k)
+      list.push_back(world.body_at(static_cast<std::uint32_t>(random.between(0, 99))));
+    QueryFilter data;
+    data.tag_mask = static_cast<std::uint32_t>(random.between(0, 3));
+    data.tag = static_cast<std::uint32_t>(random.between(0, 7));
+    data.bodies = list;
+    data.only_listed = random.between(0, 1) == 1;
+    Rule rule{tags, data};
+    const QueryFilter asked{.accept = accept, .context = &rule};
+    const Vec3<Position> low{-20_m, -20_m, -20_m};
+    std::array<BodyHandle, 128> a{}, b{};
+    const std::size_t count = world.overlap_sphere({}, 8_m, a, data);
+    EXPECT_EQ(count, world.overlap_sphere({}, 8_m, b, asked));
+    EXPECT_EQ(a, b);
+    EXPECT_EQ(bodies_in_box(world, low, -low, a, data), bodies_in_box(world, low, -low, b, asked));
+    EXPECT_EQ(a, b);
+    const Position x = Position::from_ratio(random.between(-400, 400), 100);
+    const Vec3<Length> down{{}, -20_m, {}};
+    EXPECT_EQ(world.cast_ray({x, 10_m, {}}, down, data).body,
+              world.cast_ray({x, 10_m, {}}, down, asked).body);
+    const ShapeCast cast{Shape::sphere(0.5_m), {{x, 10_m, {}}, {}}, down};
+    EXPECT_EQ(world.cast_shape(cast, data).body, world.cast_shape(cast, asked).body);
+    EXPECT_EQ(world.closest_point({x, 1_m, {}}, 9_m, data).body,
+              world.closest_point({x, 1_m, {}}, 9_m, asked).body);
+    some += count;
+    all += world.overlap_sphere({}, 8_m, a);
+  }
+  EXPECT_GT(some, 500u);
+  EXPECT_GT(all, 2 * some);
+}
+
+TEST(Queries, ThatLookAtAnEmptyListAloneSeeNothing) {
+  const World world = world_of_three();
+  EXPECT_TRUE(world.cast_ray({}, {12_m, {}, {}}, {.only_listed = true}).body.is_null());
+  const BodyHandle first = world.body_at(0);
+  const std::array listed{world.body_at(1), first};
+  EXPECT_EQ(world.cast_ray({}, {12_m, {}, {}}, {.bodies = listed, .only_listed = true}).body,
+            first);
+  EXPECT_TRUE(world.cast_ray({}, {12_m, {}, {}}, {.bodies = listed}).body.is_null());
 }
 
 TEST(ClosestPoint, IsTheNearestOfAllBodiesWithinReach) {

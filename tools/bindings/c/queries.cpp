@@ -1,4 +1,5 @@
 // Queries. Arguments that the core would assert on are checked here and refused.
+#include <array>
 #include <vector>
 
 #include "tools/bindings/c/convert.h"
@@ -10,19 +11,38 @@ using namespace lockstone;
 using namespace lockstone::c;
 
 lks_query_filter default_filter() {
-  return {sizeof(lks_query_filter), 0xffffffff, 0, 0, 0};
-}
-
-QueryFilter filter_of(const lks_query_filter* from) {
-  const lks_query_filter raw =
-      from == nullptr ? default_filter() : take(from, default_filter(), "filter");
-  if (raw.reserved != 0) throw invalid("filter.reserved", "must be 0");
-  QueryFilter filter;
-  filter.mask = raw.mask;
-  filter.ignore = handle_of<BodyHandle>(raw.ignore);
-  filter.triggers = flag(raw.triggers, "filter.triggers");
+  lks_query_filter filter{};
+  filter.size = sizeof(lks_query_filter);
+  filter.mask = 0xffffffff;
   return filter;
 }
+
+// A filter with its list.
+struct ListedFilter {
+  QueryFilter filter;
+  std::array<BodyHandle, LKS_FILTER_BODIES> listed;
+
+  explicit ListedFilter(const lks_query_filter* from) {
+    const lks_query_filter raw =
+        from == nullptr ? default_filter() : take(from, default_filter(), "filter");
+    if (raw.reserved != 0) throw invalid("filter.reserved", "must be 0");
+    if (raw.listed_count > LKS_FILTER_BODIES)
+      throw invalid("filter.listed_count", "must be 0 … 16");
+    for (std::size_t i = 0; i < raw.listed_count; ++i)
+      listed[i] = handle_of<BodyHandle>(raw.listed[i]);
+    filter.mask = raw.mask;
+    filter.ignore = handle_of<BodyHandle>(raw.ignore);
+    filter.triggers = flag(raw.triggers, "filter.triggers");
+    filter.tag_mask = raw.tag_mask;
+    filter.tag = raw.tag;
+    filter.bodies = std::span(listed).first(raw.listed_count);
+    filter.only_listed = flag(raw.only_listed, "filter.only_listed");
+  }
+  ListedFilter(const ListedFilter&) = delete;  // the filter refers to the list
+  ListedFilter& operator=(const ListedFilter&) = delete;
+
+  operator const QueryFilter&() const { return filter; }  // NOLINT(google-explicit-constructor)
+};
 
 Vec3<Length> way_of(const lks_length3* way) {
   const auto result = vec<Length>(required(way, "way"));
@@ -84,7 +104,8 @@ lks_status lks_cast_ray(const lks_world* world, const lks_position3* origin, con
   return call([&] {
     const World& source = read(world);
     const Ray ray = ray_of(origin, way);
-    required(out, "out") = hit_of(source.cast_ray(ray.origin, ray.translation, filter_of(filter)));
+    required(out, "out") =
+        hit_of(source.cast_ray(ray.origin, ray.translation, ListedFilter(filter)));
   });
 }
 
@@ -94,7 +115,7 @@ lks_status lks_cast_ray_all(const lks_world* world, const lks_position3* origin,
   return call([&] {
     const World& source = read(world);
     const Ray ray = ray_of(origin, way);
-    const QueryFilter seen = filter_of(filter);
+    const ListedFilter seen(filter);
     give_all<RayHit>(
         source, out, capacity, count,
         [&](auto room) { return source.cast_ray_all(ray.origin, ray.translation, room, seen); },
@@ -108,7 +129,7 @@ lks_status lks_is_ray_blocked(const lks_world* world, const lks_position3* origi
   return call([&] {
     const World& source = read(world);
     const Ray ray = ray_of(origin, way);
-    required(out, "out") = source.is_ray_blocked(ray.origin, ray.translation, filter_of(filter));
+    required(out, "out") = source.is_ray_blocked(ray.origin, ray.translation, ListedFilter(filter));
   });
 }
 
@@ -117,7 +138,7 @@ lks_status lks_cast_shape(const lks_world* world, const lks_shape* shape, const 
   return call([&] {
     const World& source = read(world);
     const ShapeCast cast{query_shape(source, shape), pose_of(start), way_of(way)};
-    required(out, "out") = hit_of(source.cast_shape(cast, filter_of(filter)));
+    required(out, "out") = hit_of(source.cast_shape(cast, ListedFilter(filter)));
   });
 }
 
@@ -137,11 +158,27 @@ lks_status lks_overlap_shape(const lks_world* world, const lks_shape* shape, con
     const World& source = read(world);
     const Shape probe = query_shape(source, shape);
     const Transform place = pose_of(pose);
-    const QueryFilter seen = filter_of(filter);
+    const ListedFilter seen(filter);
     give_all<BodyHandle>(
         source, out, capacity, count,
         [&](auto room) { return source.overlap_shape(probe, place, room, seen); },
         id_of<BodyHandle>);
+  });
+}
+
+lks_status lks_bodies_in_box(const lks_world* world, const lks_position3* lower,
+                             const lks_position3* upper, const lks_query_filter* filter,
+                             lks_body* out, size_t capacity, size_t* count) {
+  return call([&] {
+    const World& source = read(world);
+    const Vec3<Position> low = place_of(lower, "lower"), high = place_of(upper, "upper");
+    for (int i = 0; i < 3; ++i) {
+      if (low[i] > high[i]) throw invalid("lower", "must not be above `upper`");
+    }
+    const ListedFilter seen(filter);
+    give_all<BodyHandle>(
+        source, out, capacity, count,
+        [&](auto room) { return bodies_in_box(source, low, high, room, seen); }, id_of<BodyHandle>);
   });
 }
 
@@ -151,7 +188,8 @@ lks_status lks_closest_point(const lks_world* world, const lks_position3* point,
     const World& source = read(world);
     const Vec3<Position> place = place_of(point, "point");
     if (reach < 0 || reach > k_max_cast.raw) throw invalid("reach", "must be 0 … 512 m");
-    const ClosestHit hit = source.closest_point(place, Length::from_raw(reach), filter_of(filter));
+    const ClosestHit hit =
+        source.closest_point(place, Length::from_raw(reach), ListedFilter(filter));
     required(out, "out") = {id_of(hit.body), raw_of(hit.point), hit.distance.raw, hit.part};
   });
 }

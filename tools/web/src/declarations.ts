@@ -108,6 +108,7 @@ export const LKS_TRIGGER_EXIT = 4;
 export const LKS_IMPACT = 5;
 export const LKS_SLEEP = 6;
 export const LKS_WAKE = 7;
+export const LKS_FILTER_BODIES = 16;
 export const LKS_NATIVE = 0;
 export const LKS_CANONICAL = 1;
 export const LKS_INPUT_RECEIVED = 0;
@@ -191,7 +192,7 @@ export const lks_hit_event = { $bytes: 112, a: 0, b: 8, point: 16, normal_impuls
 export const lks_joint_event = { $bytes: 32, joint: 0, a: 8, b: 16, user_data: 24 } as const;
 export const lks_touching_point = { $bytes: 40, point: 0, normal_force: 24, separation: 32, reserved: 36 } as const;
 export const lks_body_contact = { $bytes: 232, other: 0, points: 8, normal_force: 168, friction: 176, normal: 200, count: 212, part: 216, other_part: 220, tag: 224, other_tag: 228 } as const;
-export const lks_query_filter = { $bytes: 24, size: 0, mask: 4, ignore: 8, triggers: 16, reserved: 20 } as const;
+export const lks_query_filter = { $bytes: 168, size: 0, mask: 4, ignore: 8, triggers: 16, only_listed: 20, tag_mask: 24, tag: 28, listed_count: 32, reserved: 36, listed: 40 } as const;
 export const lks_hit = { $bytes: 56, body: 0, fraction: 8, normal: 12, point: 24, part: 48, reserved: 52 } as const;
 export const lks_closest = { $bytes: 40, body: 0, point: 8, distance: 32, part: 36 } as const;
 export const lks_hashes = { $bytes: 40, total: 0, header: 8, bodies: 16, contacts: 24, joints: 32 } as const;
@@ -332,6 +333,7 @@ export interface Functions {
   lks_cast_shape(world: number, shape: number, start: number, way: number, filter: number, out: number): number;
   lks_overlap_sphere(world: number, centre: number, radius: number, filter: number, out: number, capacity: number, count: number): number;
   lks_overlap_shape(world: number, shape: number, pose: number, filter: number, out: number, capacity: number, count: number): number;
+  lks_bodies_in_box(world: number, lower: number, upper: number, filter: number, out: number, capacity: number, count: number): number;
   lks_closest_point(world: number, point: number, reach: number, filter: number, out: number): number;
   lks_hash(world: number, out: number): number;
   lks_part_hashes(world: number, out: number): number;

@@ -12,6 +12,12 @@ export interface QueryFilter {
   mask?: number;
   ignore?: Body;
   triggers?: boolean;
+  /** Only bodies whose own tag is `tag` in these bits; 0: of any tag. */
+  tagMask?: number;
+  tag?: number;
+  /** At most 16 bodies to leave out; with `onlyListed` the only ones to look at. */
+  bodies?: readonly Body[];
+  onlyListed?: boolean;
 }
 
 /** Where a ray or a shape on its way first meets a body. */
@@ -35,10 +41,10 @@ export interface Closest {
   part: number;
 }
 
-const FILTER = 0; // places of arguments in heap.input
-const START = 32;
+const START = 32; // places of arguments in heap.input
 const WAY = 80;
 const SHAPE = 96;
+const FILTER = 128;
 
 /** Writes a filter; its address, 0 for none. */
 function putFilter(heap: Heap, from: QueryFilter | undefined): number {
@@ -49,6 +55,14 @@ function putFilter(heap: Heap, from: QueryFilter | undefined): number {
   if (from.mask !== undefined) heap.putWord(at + filter.mask, from.mask);
   if (from.ignore) heap.u64[(at + filter.ignore) >>> 3] = from.ignore.id;
   if (from.triggers) heap.putWord(at + filter.triggers, 1);
+  if (from.tagMask !== undefined) heap.putWord(at + filter.tag_mask, from.tagMask);
+  if (from.tag !== undefined) heap.putWord(at + filter.tag, from.tag);
+  if (from.onlyListed) heap.putWord(at + filter.only_listed, 1);
+  const listed = from.bodies ?? [];
+  heap.putWord(at + filter.listed_count, listed.length);
+  listed.slice(0, c.LKS_FILTER_BODIES).forEach((body, i) => {
+    heap.u64[((at + filter.listed) >>> 3) + i] = body.id;
+  });
   return at;
 }
 

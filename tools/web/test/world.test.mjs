@@ -125,6 +125,9 @@ test("queries see the bodies", () => {
   assert.deepEqual(hit.normal.map(Math.round), [0, 1, 0]);
   assert.equal(full.castRayAll(world, [0, 20, 0], [0, -30, 0]).length, 2);
   assert.ok(!full.castRay(world, [0, 20, 0], [0, -30, 0], { ignore: ball })?.body.equals(ball));
+  assert.ok(!full.castRay(world, [0, 20, 0], [0, -30, 0], { bodies: [ball] })?.body.equals(ball));
+  assert.ok(full.castRay(world, [0, 20, 0], [0, -30, 0], { bodies: [ball], onlyListed: true })?.body.equals(ball));
+  assert.equal(full.castRay(world, [0, 20, 0], [0, -30, 0], { bodies: [ball], onlyListed: true, tagMask: 1, tag: 1 }), null);
   assert.equal(full.castRay(world, [9, 20, 0], [0, 5, 0]), null);
   assert.equal(full.isRayBlocked(world, [0, 20, 0], [0, -5, 0]), false);
   assert.ok(full.castShape(world, full.box(1, 1, 1), [0, 20, 0], [0, -30, 0])?.body.equals(ball));

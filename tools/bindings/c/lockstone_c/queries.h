@@ -8,13 +8,20 @@
 extern "C" {
 #endif
 
+#define LKS_FILTER_BODIES 16
+
 /* Which bodies a query sees. A null filter sees all but triggers. */
 typedef struct lks_query_filter {
   uint32_t size;
-  uint32_t mask;     /* categories */
-  lks_body ignore;   /* 0: none */
-  uint32_t triggers; /* 1: triggers too */
-  uint32_t reserved; /* 0 */
+  uint32_t mask;        /* categories */
+  lks_body ignore;      /* 0: none */
+  uint32_t triggers;    /* 1: triggers too */
+  uint32_t only_listed; /* 1: the listed bodies alone; 0: all others */
+  uint32_t tag_mask;    /* bits of the body's own tag that must be those of `tag`; 0: any tag */
+  uint32_t tag;
+  uint32_t listed_count; /* 0 … LKS_FILTER_BODIES */
+  uint32_t reserved;     /* 0 */
+  lks_body listed[LKS_FILTER_BODIES];
 } lks_query_filter;
 
 LKS_API lks_status lks_query_filter_init(lks_query_filter* filter, size_t size);
@@ -57,6 +64,13 @@ LKS_API lks_status lks_overlap_sphere(const lks_world* world, const lks_position
                                       lks_body* out, size_t capacity, size_t* count);
 LKS_API lks_status lks_overlap_shape(const lks_world* world, const lks_shape* shape,
                                      const lks_pose* pose, const lks_query_filter* filter,
+                                     lks_body* out, size_t capacity, size_t* count);
+
+/* Bodies whose bounds along the world's axes, rounded outward by at most 8 µm, overlap a box, by
+ * ascending index. Those of an asset hold its own box, turned as the body is. No coordinate of `lower`
+ * may be above that of `upper`. */
+LKS_API lks_status lks_bodies_in_box(const lks_world* world, const lks_position3* lower,
+                                     const lks_position3* upper, const lks_query_filter* filter,
                                      lks_body* out, size_t capacity, size_t* count);
 
 /* The nearest point of any body within `reach`, 0 … 512 m. */

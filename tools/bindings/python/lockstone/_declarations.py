@@ -102,6 +102,7 @@ LKS_LOG_SAME = 0
 LKS_LOG_DIVERGED = 1
 LKS_LOG_CORRUPT = 2
 LKS_LOG_INCOMPATIBLE = 3
+LKS_FILTER_BODIES = 16
 LKS_MAX_BONES = 64
 LKS_NO_BONE = 4294967295
 LKS_BONE_LIMP = 0
@@ -606,7 +607,12 @@ class lks_query_filter(Structure):
         ("mask", c_uint32),
         ("ignore", c_uint64),
         ("triggers", c_uint32),
+        ("only_listed", c_uint32),
+        ("tag_mask", c_uint32),
+        ("tag", c_uint32),
+        ("listed_count", c_uint32),
         ("reserved", c_uint32),
+        ("listed", c_uint64 * 16),
     ]
 
 
@@ -1175,6 +1181,7 @@ FUNCTIONS = {
     "lks_cast_shape": [c_int32, c_void_p, POINTER(lks_shape), POINTER(lks_pose), POINTER(lks_i32x3), POINTER(lks_query_filter), POINTER(lks_hit)],
     "lks_overlap_sphere": [c_int32, c_void_p, POINTER(lks_i64x3), c_int32, POINTER(lks_query_filter), POINTER(c_uint64), c_size_t, POINTER(c_size_t)],
     "lks_overlap_shape": [c_int32, c_void_p, POINTER(lks_shape), POINTER(lks_pose), POINTER(lks_query_filter), POINTER(c_uint64), c_size_t, POINTER(c_size_t)],
+    "lks_bodies_in_box": [c_int32, c_void_p, POINTER(lks_i64x3), POINTER(lks_i64x3), POINTER(lks_query_filter), POINTER(c_uint64), c_size_t, POINTER(c_size_t)],
     "lks_closest_point": [c_int32, c_void_p, POINTER(lks_i64x3), c_int32, POINTER(lks_query_filter), POINTER(lks_closest)],
     "lks_bone_init": [c_int32, POINTER(lks_bone)],
     "lks_ragdoll_def_init": [c_int32, POINTER(lks_ragdoll_def), c_size_t],

@@ -214,6 +214,7 @@ _CALLS = {
     "lks_touching": [_WORLD, _BODY, _BODY, _FLAG],
     "lks_cast_ray": [_WORLD, POINTER(I64x3), POINTER(I32x3), c_void_p, POINTER(Hit)],
     "lks_overlap_sphere": [_WORLD, POINTER(I64x3), c_int32, c_void_p, c_void_p, c_size_t, _COUNT],
+    "lks_bodies_in_box": [_WORLD, POINTER(I64x3), POINTER(I64x3), c_void_p, c_void_p, c_size_t, _COUNT],
     "lks_snapshot_bytes_max": [_WORLD, c_uint32, _COUNT],
     "lks_save": [_WORLD, c_uint32, c_void_p, c_size_t, _COUNT],
     "lks_load": [_WORLD, c_uint32, c_char_p, c_size_t],

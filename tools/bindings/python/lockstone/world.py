@@ -469,6 +469,14 @@ class World:
                                units.raw(radius, units.LENGTH, 32), None, room, len(room), byref(count))
         return [Body(self, number) for number in room[:count.value]]
 
+    def bodies_in_box(self, lower: Vector, upper: Vector) -> List[Body]:
+        """Those whose bounds along the world's axes overlap a box, by ascending index."""
+        room = (ctypes.c_uint64 * self.definition.body_capacity)()
+        count = ctypes.c_size_t()
+        lib.lks_bodies_in_box(self.handle, byref(_wide(lower, units.POSITION)),
+                              byref(_wide(upper, units.POSITION)), None, room, len(room), byref(count))
+        return [Body(self, number) for number in room[:count.value]]
+
     def part_hashes(self) -> Dict[str, int]:
         """Of the header, bodies, contacts and joints."""
         parts = (ctypes.c_uint64 * 5)()

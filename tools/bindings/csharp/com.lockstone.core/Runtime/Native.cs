@@ -391,7 +391,12 @@ namespace Lockstone.Interop
         public uint mask;
         public ulong ignore;
         public uint triggers;
+        public uint only_listed;
+        public uint tag_mask;
+        public uint tag;
+        public uint listed_count;
         public uint reserved;
+        public fixed ulong listed[16];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1077,6 +1082,7 @@ namespace Lockstone.Interop
         public const uint LKS_LOG_DIVERGED = 1;
         public const uint LKS_LOG_CORRUPT = 2;
         public const uint LKS_LOG_INCOMPATIBLE = 3;
+        public const uint LKS_FILTER_BODIES = 16;
         public const uint LKS_MAX_BONES = 64;
         public const uint LKS_NO_BONE = 4294967295;
         public const uint LKS_BONE_LIMP = 0;
@@ -1558,6 +1564,9 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_overlap_shape(IntPtr world, lks_shape* shape, lks_pose* pose, lks_query_filter* filter, ulong* @out, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_bodies_in_box(IntPtr world, lks_i64x3* lower, lks_i64x3* upper, lks_query_filter* filter, ulong* @out, UIntPtr capacity, UIntPtr* count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_closest_point(IntPtr world, lks_i64x3* point, int reach, lks_query_filter* filter, lks_closest* @out);

@@ -137,6 +137,7 @@ pub const LKS_LOG_SAME: u32 = 0;
 pub const LKS_LOG_DIVERGED: u32 = 1;
 pub const LKS_LOG_CORRUPT: u32 = 2;
 pub const LKS_LOG_INCOMPATIBLE: u32 = 3;
+pub const LKS_FILTER_BODIES: u32 = 16;
 pub const LKS_MAX_BONES: u32 = 64;
 pub const LKS_NO_BONE: u32 = 4294967295;
 pub const LKS_BONE_LIMP: u32 = 0;
@@ -623,7 +624,12 @@ pub struct lks_query_filter {
     pub mask: u32,
     pub ignore: lks_body,
     pub triggers: u32,
+    pub only_listed: u32,
+    pub tag_mask: u32,
+    pub tag: u32,
+    pub listed_count: u32,
     pub reserved: u32,
+    pub listed: [lks_body; 16],
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1187,6 +1193,7 @@ extern "C" {
     pub fn lks_cast_shape(world: *const lks_world, shape: *const lks_shape, start: *const lks_pose, way: *const lks_length3, filter: *const lks_query_filter, out: *mut lks_hit) -> lks_status;
     pub fn lks_overlap_sphere(world: *const lks_world, centre: *const lks_position3, radius: lks_length, filter: *const lks_query_filter, out: *mut lks_body, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_overlap_shape(world: *const lks_world, shape: *const lks_shape, pose: *const lks_pose, filter: *const lks_query_filter, out: *mut lks_body, capacity: usize, count: *mut usize) -> lks_status;
+    pub fn lks_bodies_in_box(world: *const lks_world, lower: *const lks_position3, upper: *const lks_position3, filter: *const lks_query_filter, out: *mut lks_body, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_closest_point(world: *const lks_world, point: *const lks_position3, reach: lks_length, filter: *const lks_query_filter, out: *mut lks_closest) -> lks_status;
     pub fn lks_bone_init(bone: *mut lks_bone) -> lks_status;
     pub fn lks_ragdoll_def_init(def: *mut lks_ragdoll_def, size: usize) -> lks_status;

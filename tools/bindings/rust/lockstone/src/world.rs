@@ -20,6 +20,17 @@ definition!(
     QueryFilter, lks_query_filter, lks_query_filter_init
 );
 
+/// Asks again with more room until all bodies have room.
+fn list_bodies(mut ask: impl FnMut(*mut u64, usize, &mut usize) -> i32) -> Result<Vec<Body>> {
+    let mut found = vec![0_u64; 64];
+    let mut count = found.len();
+    while count == found.len() {
+        found.resize(found.len() * 2, 0);
+        check(ask(found.as_mut_ptr(), found.len(), &mut count))?;
+    }
+    Ok(found[..count].iter().copied().map(Body).collect())
+}
+
 /// Names a body. The name of a destroyed one never names another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Body(pub u64);
@@ -419,16 +430,15 @@ impl World {
     }
     /// The bodies that overlap the sphere, by ascending index.
     pub fn overlap_sphere(&self, centre: lks_i64x3, radius: lks_length, filter: &QueryFilter) -> Result<Vec<Body>> {
-        let mut found = vec![0_u64; 64];
-        let mut count = found.len();
-        while count == found.len() {
-            found.resize(found.len() * 2, 0);
-            let room = found.as_mut_ptr();
-            check(unsafe {
-                sys::lks_overlap_sphere(self.0, &centre, radius, &filter.0, room, found.len(), &mut count)
-            })?;
-        }
-        Ok(found[..count].iter().copied().map(Body).collect())
+        list_bodies(|room, capacity, count| unsafe {
+            sys::lks_overlap_sphere(self.0, &centre, radius, &filter.0, room, capacity, count)
+        })
+    }
+    /// The bodies whose bounds along the world's axes overlap a box, by ascending index.
+    pub fn bodies_in_box(&self, lower: lks_i64x3, upper: lks_i64x3, filter: &QueryFilter) -> Result<Vec<Body>> {
+        list_bodies(|room, capacity, count| unsafe {
+            sys::lks_bodies_in_box(self.0, &lower, &upper, &filter.0, room, capacity, count)
+        })
     }
 
     pub fn snapshot_bytes_max(&self, kind: crate::Snapshot) -> usize {
