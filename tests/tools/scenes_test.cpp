@@ -1,4 +1,6 @@
 // Every scene: builds, repeats itself, and is saved whole.
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -128,6 +130,52 @@ TEST(Scenes, TheBallRollsDownTheRamp) {
     play->step();
   EXPECT_GT(place(*play, 3).x, Position::from_integer(3));
   EXPECT_LT(abs(place(*play, 3).z), Position::from_ratio(1, 1000));
+}
+
+Position foot_of(const BodyView& character) {
+  const ShapeKind kind = character.shape.kind;
+  const int decimetres = kind == ShapeKind::sphere ? 4 : kind == ShapeKind::capsule ? 8 : 7;
+  return character.position.y - Position::from_ratio(decimetres, 10);
+}
+
+// The least separation from bodies that never move.
+Displacement clearance_of(const World& world, const BodyView& character) {
+  std::array<ShapeContact, 32> contacts;
+  const std::size_t count = world.contacts_of_shape(
+      character.shape, {character.position, character.orientation}, {}, contacts, {.mask = 1});
+  Displacement least = Displacement::max();
+  for (const ShapeContact& contact : std::span(contacts).first(count)) {
+    const bool still = world.body(contact.body).motion == MotionType::static_body;
+    if (still) least = min(least, contact.separation);
+  }
+  return least;
+}
+
+TEST(Scenes, TheCharactersStayOutOfEverythingClimbAndAreCarried) {
+  const auto play = make_play("characters", k_seed).value();
+  const World& world = play->world();
+  unsigned looked_at = 0, high = 0, on_ferries = 0;
+  for (int tick = 0; tick < 240; ++tick) {
+    play->step();
+    for (std::uint32_t index = 0; index < world.body_limit(); ++index) {
+      const BodyView view = world.body(world.body_at(index));
+      if (view.user_data != 1) continue;
+      ++looked_at;
+      EXPECT_GT(foot_of(view), Position::from_ratio(-1, 10000))
+          << "body " << index << " at tick " << tick;
+      EXPECT_GT(clearance_of(world, view), Displacement::from_ratio(-1, 1000))
+          << "body " << index << " at tick " << tick;
+      if (tick < 120) continue;
+      const Vec3<Length> down{{}, Length::from_integer(-1), {}};
+      const RayHit below = world.cast_ray(view.position, down, {.mask = 1});
+      if (below.body.is_null()) continue;
+      high += foot_of(view) > Position::from_ratio(6, 10) ? 1U : 0U;
+      on_ferries += world.body(below.body).user_data == 3 ? 1U : 0U;
+    }
+  }
+  EXPECT_EQ(looked_at, 48U * 240);
+  EXPECT_GT(high, 240U);
+  EXPECT_GT(on_ferries, 60U);
 }
 
 TEST(Scenes, TheCharacterStandsAndTheCapsuleFalls) {

@@ -62,7 +62,7 @@ extern const Scene k_dice, k_pebbles;                                    // roun
 extern const Scene k_bullets;                                            // bullets.cpp
 extern const Scene k_layers;                                             // layers.cpp
 extern const Scene k_belts;                                              // belts.cpp
-extern const Scene k_crowd;                                              // crowd.cpp
+extern const Scene k_crowd, k_characters;                                // crowd.cpp
 extern const Scene k_arch, k_cards;                                      // masonry.cpp
 extern const Scene k_boats;                                              // water.cpp
 extern const Scene k_explosion;                                          // blast.cpp
