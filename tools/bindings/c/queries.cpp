@@ -22,7 +22,7 @@ struct ListedFilter {
   QueryFilter filter;
   std::array<BodyHandle, LKS_FILTER_BODIES> listed;
 
-  explicit ListedFilter(const lks_query_filter* from) {
+  [[gnu::noinline]] explicit ListedFilter(const lks_query_filter* from) {
     const lks_query_filter raw =
         from == nullptr ? default_filter() : take(from, default_filter(), "filter");
     if (raw.reserved != 0) throw invalid("filter.reserved", "must be 0");
