@@ -276,6 +276,12 @@ static void rays_and_shapes_find_bodies(void) {
   filter.tag = 1;
   OK(lks_cast_ray(world, &above, &down, &filter, &hit));
   CHECK(hit.body == 0);
+  OK(lks_query_filter_init(&filter, 24)); /* of a program from before tags and lists */
+  filter.listed_count = 1;
+  filter.listed[0] = ball;
+  OK(lks_cast_ray(world, &above, &down, &filter, &hit));
+  CHECK(hit.body == ball);
+  OK(lks_query_filter_init(&filter, sizeof filter));
   filter.listed_count = LKS_FILTER_BODIES + 1;
   REFUSED(LKS_INVALID_ARGUMENT, lks_cast_ray(world, &above, &down, &filter, &hit));
   lks_world_destroy(world);

@@ -5,6 +5,10 @@
 #include "tools/bindings/c/convert.h"
 #include "tools/bindings/c/handles.h"
 
+// Before it had tags and a list of bodies.
+template <>
+inline constexpr std::size_t lockstone::c::k_first_size<lks_query_filter> = 24;
+
 namespace {
 
 using namespace lockstone;
