@@ -7,6 +7,7 @@
 #include "core/collision/continuous/piece_sweep.h"
 #include "core/collision/narrow_phase/collide_bodies.h"
 #include "core/collision/query/cast_placed.h"
+#include "core/dynamics/state/limits.h"
 #include "core/geometry/distance/gjk/gjk.h"
 
 namespace lockstone {
@@ -18,12 +19,8 @@ constexpr Length k_least_gap = Length::from_raw(8);
 constexpr Length k_greatest_gap = Length::from_integer(1);
 constexpr Length k_greatest_margin = Length::from_integer(64);
 
-bool is_inside(const Vec3<Position>& v, Position bound) {
-  return max(max(abs(v.x), abs(v.y)), abs(v.z)) <= bound;
-}
-
 bool is_pose(const Transform& pose) {
-  return is_inside(pose.position, k_world_limit) && has_direction(pose.orientation);
+  return is_within(pose.position, k_world_limit) && has_direction(pose.orientation);
 }
 
 // Of shapes that pass `validate`.
@@ -63,7 +60,7 @@ struct PlacedPair {
     const PlacedShape placed_a = placed_at(at_a), placed_b = placed_at(at_b);
     a = brought_near(placed_a, placed_b.origin);
     b = brought_near(placed_b, placed_a.origin);
-    is_valid = is_inside(b.origin - a.origin, k_farthest_frames);
+    is_valid = is_within(b.origin - a.origin, k_farthest_frames);
   }
 };
 
@@ -73,7 +70,7 @@ template <class F>
 void for_each_near_pair(const PlacedPair& pair, const Length& reach, F&& f) {
   auto with_b = [&](const Piece& a) {
     auto with_a = [&](const Piece& b) {
-      if (is_inside(b.origin - a.origin, k_farthest_parts)) f(a, b);
+      if (is_within(b.origin - a.origin, k_farthest_parts)) f(a, b);
     };
     EachPiece<decltype(with_a)> pieces_of_b(with_a);
     visit_pieces(pair.b, is_half_space(a.shape) ? oriented_box(pair.b) : oriented_box(a), reach,
@@ -117,7 +114,7 @@ struct FrameSweep {
     sweep = {{start.pose.position, from},
              motion.end.position - start.pose.position,
              rotation_between(from, normalized(motion.end.orientation))};
-    is_valid = is_inside(sweep.translation, rounded<Position>(k_max_cast));
+    is_valid = is_within(sweep.translation, rounded<Position>(k_max_cast));
   }
 };
 
@@ -218,8 +215,7 @@ Result<std::size_t> shape_contacts(const ShapeAt& a, const ShapeAt& b, Length ma
 Result<ShapeImpact> shape_cast(const ShapeAt& a, const ShapeAt& b,
                                const Vec3<Length>& translation) {
   const PlacedPair pair(a, b);
-  if (!pair.is_valid || !is_convex(b.shape.kind) ||
-      !is_inside(rounded<Position>(translation), rounded<Position>(k_max_cast)))
+  if (!pair.is_valid || !is_convex(b.shape.kind) || !is_within(translation, k_max_cast))
     return Status::invalid_argument;
   const PlacedShapeHit hit = cast_shape(pair.a, pair.b, translation, Unit::from_integer(1));
   if (!hit.hit) return ShapeImpact{};
@@ -230,7 +226,7 @@ Result<ShapeImpact> shape_cast(const ShapeAt& a, const ShapeAt& b,
 Result<ShapeImpact> shape_impact(const ShapeMotion& a, const ShapeMotion& b, Length gap) {
   const FrameSweep sweep_a(a), sweep_b(b);
   if (!sweep_a.is_valid || !sweep_b.is_valid || gap < k_least_gap || gap > k_greatest_gap ||
-      !is_inside(b.start.pose.position - a.start.pose.position, k_farthest_frames))
+      !is_within(b.start.pose.position - a.start.pose.position, k_farthest_frames))
     return Status::invalid_argument;
   return FirstOfParts(sweep_a, sweep_b, gap).find();
 }

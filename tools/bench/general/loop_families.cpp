@@ -39,29 +39,47 @@ void fill_span(SceneMaker& m) {
   m.judge(Judge::gap, 0.01, 8);
 }
 
+// A closed ring of boxes about a point of the y axis, in the plane of x and y; the first one is at
+// the top.
+struct Ring {
+  int count = 0;
+  double half = 0;    // of a box's length
+  double centre = 0;  // y
+
+  [[nodiscard]] double radius() const { return half / std::tan(k_pi / count); }
+};
+
+template <class Density>
+std::vector<int> add_ring(SceneMaker& m, const Ring& ring, Link link, const Density& density) {
+  std::vector<int> boxes;
+  const auto at = [&ring](double reach, double part) {
+    const double angle = 2 * k_pi * part / ring.count;
+    return Triple{reach * std::sin(angle), ring.centre + reach * std::cos(angle), 0};
+  };
+  for (int i = 0; i < ring.count; ++i) {
+    const double half = ring.half;
+    const int box = m.box({0.9 * half, 0.2 * half, 0.3 * half}, at(ring.radius(), i), density());
+    m.turn(box, general::turn_about({0, 0, 1}, -(2 * k_pi * i / ring.count)));
+    boxes.push_back(box);
+  }
+  const double corner = ring.half / std::sin(k_pi / ring.count);
+  for (int i = 0; i < ring.count; ++i)
+    m.join(link, boxes[static_cast<std::size_t>(i)],
+           boxes[static_cast<std::size_t>((i + 1) % ring.count)], at(corner, i + 0.5));
+  return boxes;
+}
+
 // A closed ring with parallel hinges, hung from one ball.
 void fill_ring(SceneMaker& m) {
   const int n = m.count(3, 24);
-  const double half = m.random.between(0.1, 0.4), radius = half / std::tan(k_pi / n);
+  const Ring ring{n, m.random.between(0.1, 0.4)};
   const Link link = m.random.chance(0.8) ? Link::hinge : Link::ball;
   const double spread = m.random.log_between(1, 10);
-  std::vector<int> boxes;
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * k_pi * i / n;
-    const int box = m.box({0.9 * half, 0.2 * half, 0.3 * half},
-                          {radius * std::sin(angle), radius * std::cos(angle), 0},
-                          1000 * m.random.log_between(1, spread));
-    m.turn(box, general::turn_about({0, 0, 1}, -angle));
-    boxes.push_back(box);
-  }
-  const double corner = half / std::sin(k_pi / n);
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * k_pi * (i + 0.5) / n;
-    m.join(link, boxes[static_cast<std::size_t>(i)], boxes[static_cast<std::size_t>((i + 1) % n)],
-           {corner * std::sin(angle), corner * std::cos(angle), 0});
-  }
-  m.join(Link::ball, m.anchor({0, radius, 0}), boxes[0], {0, radius, 0});
-  hang(m, n * 2 * half);
+  const std::vector<int> boxes =
+      add_ring(m, ring, link, [&] { return 1000 * m.random.log_between(1, spread); });
+  const Triple top{0, ring.radius(), 0};
+  m.join(Link::ball, m.anchor(top), boxes[0], top);
+  hang(m, n * 2 * ring.half);
   m.judge(Judge::gap, 0.01, 8);
 }
 
@@ -69,7 +87,8 @@ void fill_ring(SceneMaker& m) {
 // boxes.
 void fill_weak_link(SceneMaker& m) {
   const int links = m.count(1, 3), n = m.count(3, 8);
-  const double half = m.random.between(0.1, 0.4), radius = half / std::tan(k_pi / n);
+  Ring ring{n, m.random.between(0.1, 0.4)};
+  const double half = ring.half;
   const double ratio = m.random.log_between(1, 2000), size = m.random.log_between(0.02, 0.2);
   const Link held = m.random.chance(0.3) ? Link::weld : ball_or_hinge(m);
   double top = 0;
@@ -78,29 +97,15 @@ void fill_weak_link(SceneMaker& m) {
   const double lever = m.random.between(0, 0.5);
   for (int i = 0; i < links; ++i) {
     const Triple beside = m.jitter(lever);
-    const int link =
-        m.box({0.3 * size, 0.9 * size, 0.3 * size}, Triple{beside[0], top - size + beside[1], beside[2]});
+    const int link = m.box({0.3 * size, 0.9 * size, 0.3 * size},
+                           Triple{beside[0], top - size + beside[1], beside[2]});
     m.set_mass(link, ring_mass / ratio);
     m.join(i == 0 ? held : ball_or_hinge(m), before, link, {0, top, 0});
     top -= 2 * size;
     before = link;
   }
-  std::vector<int> boxes;
-  const double centre = top - radius;
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * k_pi * i / n;
-    const int box = m.box({0.9 * half, 0.2 * half, 0.3 * half},
-                          {radius * std::sin(angle), centre + radius * std::cos(angle), 0});
-    m.turn(box, general::turn_about({0, 0, 1}, -angle));
-    boxes.push_back(box);
-  }
-  const double corner = half / std::sin(k_pi / n);
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * k_pi * (i + 0.5) / n;
-    m.join(Link::hinge, boxes[static_cast<std::size_t>(i)],
-           boxes[static_cast<std::size_t>((i + 1) % n)],
-           {corner * std::sin(angle), centre + corner * std::cos(angle), 0});
-  }
+  ring.centre = top - ring.radius();
+  const std::vector<int> boxes = add_ring(m, ring, Link::hinge, [] { return 1000.0; });
   m.join(Link::ball, before, boxes[0], {0, top, 0});
   const double push = m.random.between(0, 2);
   for (const int box : boxes)
@@ -217,16 +222,16 @@ void fill_cradle(SceneMaker& m) {
 }  // namespace
 
 void add_loop_families(std::vector<Family>& all) {
-  all.insert(all.end(),
-             {{"span", "2-20 planks straight between two fixed ends", fill_span},
-              {"ring", "closed ring of 3-24 boxes, parallel hinges or balls, hung", fill_ring},
-              {"weak-link", "1-3 light links hold a ring of 3-8 boxes, up to 2000 : 1",
-               fill_weak_link},
-              {"net", "net of 2 x 2 to 5 x 5 plates hung by two corners", fill_net},
-              {"chain", "open chain of 2-60 links, end up to 500 : 1", fill_chain},
-              {"pendulum", "1-4 rods that swing for 20 s", fill_pendulum},
-              {"four-bar", "a linkage that swings through toggles", fill_four_bar},
-              {"cradle", "2-7 elastic balls on two rods each", fill_cradle}});
+  all.insert(
+      all.end(),
+      {{"span", "2-20 planks straight between two fixed ends", fill_span},
+       {"ring", "closed ring of 3-24 boxes, parallel hinges or balls, hung", fill_ring},
+       {"weak-link", "1-3 light links hold a ring of 3-8 boxes, up to 2000 : 1", fill_weak_link},
+       {"net", "net of 2 x 2 to 5 x 5 plates hung by two corners", fill_net},
+       {"chain", "open chain of 2-60 links, end up to 500 : 1", fill_chain},
+       {"pendulum", "1-4 rods that swing for 20 s", fill_pendulum},
+       {"four-bar", "a linkage that swings through toggles", fill_four_bar},
+       {"cradle", "2-7 elastic balls on two rods each", fill_cradle}});
 }
 
 }  // namespace lockstone::bench

@@ -42,23 +42,22 @@ void add_path(lks_assets& assets, std::span<const PathPoint> points, std::span<c
   name = result.path->id().value;
 }
 
-// A shape with its asset, if the set has it; its place is for the function to check.
+// A place that is for the function to check.
+Transform unchecked_pose(const lks_pose& pose) {
+  return {vec<Position>(pose.position), quat_of(pose.orientation)};
+}
+
+// A shape with its asset of the set, if it names one.
 ShapeAt shape_at(const lks_assets* assets, const lks_placed_shape* raw, std::string_view field) {
   const lks_placed_shape& from = required(raw, field);
-  ShapeAt at{shape_of(from.shape, field),
-             {vec<Position>(from.pose.position), quat_of(from.pose.orientation)},
-             nullptr};
+  ShapeAt at{shape_of(from.shape, field), unchecked_pose(from.pose), nullptr};
   if (!is_asset(at.shape.kind)) return at;
-  for (const AssetPtr& asset : assets == nullptr ? std::vector<AssetPtr>{} : assets->list) {
-    if (asset->id() == at.shape.asset) at.asset = asset.get();
+  if (assets != nullptr) {
+    for (const AssetPtr& asset : assets->list)
+      if (asset->id() == at.shape.asset) at.asset = asset.get();
   }
   if (at.asset == nullptr) throw Failure{LKS_NOT_FOUND, "the set has no such asset"};
   return at;
-}
-
-Transform end_of(const lks_pose* raw, std::string_view field) {
-  const lks_pose& pose = required(raw, field);
-  return {vec<Position>(pose.position), quat_of(pose.orientation)};
 }
 
 template <class Found>
@@ -109,8 +108,9 @@ lks_status lks_shape_impact(const lks_assets* assets, const lks_placed_shape* a,
   return call([&] {
     required(out, "out");
     const Result<ShapeImpact> result =
-        shape_impact({shape_at(assets, a, "a"), end_of(end_a, "end_a")},
-                     {shape_at(assets, b, "b"), end_of(end_b, "end_b")}, Length::from_raw(gap));
+        shape_impact({shape_at(assets, a, "a"), unchecked_pose(required(end_a, "end_a"))},
+                     {shape_at(assets, b, "b"), unchecked_pose(required(end_b, "end_b"))},
+                     Length::from_raw(gap));
     *out = hit_of(found_in(result));
   });
 }

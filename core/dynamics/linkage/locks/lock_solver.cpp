@@ -57,8 +57,8 @@ constexpr std::int64_t k_noise = 128;
 // Openings whose squares fit, 0.25 m.
 constexpr std::int64_t k_wide = std::int64_t{1} << 30;
 
-// Before the first solve a factor of earlier rows is not used for errors above this, m/s, Q50: a link
-// turned far in the substep, and the factor could add to its speed.
+// Before the first solve a factor of earlier rows is not used for errors above this, m/s, Q50: a
+// link turned far in the substep, and the factor could add to its speed.
 constexpr std::int64_t k_far_speed = std::int64_t{4} << 50;
 
 // Joints of groups without a direct solve close this part of an opening in a substep.
