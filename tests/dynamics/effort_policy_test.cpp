@@ -49,6 +49,24 @@ TEST(EffortPolicy, CallsAPileLooseFromWhenAQuarterIsStirredUntilHalfIsNot) {
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
 }
 
+TEST(EffortPolicy, KeepsAPileLooseForFourSecondsAfterItWasStirred) {
+  IslandTally stirred, calm, tight;
+  stirred.bodies = calm.bodies = 100;
+  stirred.stirred = 50;
+  stirred.is_loose = calm.is_loose = true;
+  for (const int rate : {10, 60, 120, 480}) {
+    const TimeStep step = TimeStep::of(rate, 4);
+    BodyRecord body;
+    body.loose_time = EffortPolicy::loose_time(stirred, body, step, 7);
+    std::uint64_t ticks = 0;
+    for (; body.loose_time > 0; ++ticks)
+      body.loose_time = EffortPolicy::loose_time(calm, body, step, ticks);
+    EXPECT_NEAR(static_cast<double>(ticks), 4.0 * rate, rate / 60.0) << rate;
+    body.loose_time = 100;
+    EXPECT_EQ(EffortPolicy::loose_time(tight, body, step, 0), 0);
+  }
+}
+
 TEST(EffortPolicy, CallsNoIslandWithoutJointsLooseThatIsSmallOrUneven) {
   IslandTally island;
   island.bodies = island.stirred = 24;

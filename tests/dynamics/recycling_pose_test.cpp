@@ -89,13 +89,13 @@ TEST(RecyclingPose, LiesAlikeFromTheBodyAnywhereAndMirrored) {
 
 TEST(RecyclingPose, IsNearWithinAsMuchAsAsked) {
   Dice dice;
-  for (const int delta : {k_fine_delta, k_coarse_delta}) {
-    const double most = std::ldexp(1.0, delta);
+  for (const RecyclingRange& range : {k_fine_range, k_coarse_range, k_wide_range}) {
+    const double most = std::ldexp(1.0, range.metres);
     BodyRecord near = random_box(dice), far = near;
     move(dice, 0.99 * most, 0.99 * most, near);
-    EXPECT_TRUE(is_near_recycling_pose(near, delta));
+    EXPECT_TRUE(is_near_recycling_pose(near, range));
     move(dice, 1.01 * most, 0, far);
-    EXPECT_FALSE(is_near_recycling_pose(far, delta));
+    EXPECT_FALSE(is_near_recycling_pose(far, range));
   }
 }
 
@@ -153,7 +153,7 @@ TEST(RecyclingPose, SeparationsFollow) {
     Manifold followed = boxes.collide();
     move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), boxes.a);
     move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), boxes.b);
-    shift_separations(pose_delta_of(boxes.a), pose_delta_of(boxes.b), followed);
+    shift_manifold(pose_delta_of(boxes.a), pose_delta_of(boxes.b), followed);
     const Manifold now = boxes.collide();
     // Half a step of lengths counts twice, and of separations.
     const double allowed = 2e-6 + 3 * k_hair * boxes.lean + 4 * k_hair * k_hair;
@@ -168,6 +168,33 @@ TEST(RecyclingPose, SeparationsFollow) {
     }
   }
   EXPECT_GT(met, 20000);
+}
+
+// Where bodies moved and turned further, points stay on their surfaces.
+TEST(RecyclingPose, AnchorsTurnAlong) {
+  Dice dice;
+  const double most = std::ldexp(1.0, k_wide_range.metres);
+  for (int round = 0; round < 2000; ++round) {
+    LeaningBoxes boxes(dice);
+    const Manifold found = boxes.collide();
+    move(dice, dice.uniform(most / 2, most), dice.uniform(most / 2, most), boxes.a);
+    ASSERT_TRUE(is_near_recycling_pose(boxes.a, k_wide_range));
+    const PoseDelta delta = pose_delta_of(boxes.a);
+    ASSERT_TRUE(delta.is_wide);
+    Manifold followed = found;
+    shift_manifold(delta, pose_delta_of(boxes.b), followed);
+    const Mat3 then = to_matrix(boxes.a.recycling_orientation),
+               now = to_matrix(boxes.a.orientation);
+    for (int i = 0; i < found.count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const Vec3<Length> own = rotate_inverse(then, found.points[at].anchor_a);
+      const Vec3<Length> turned = rotate(now, own);
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(static_cast<double>(real(followed.points[at].anchor_a[axis])),
+                    static_cast<double>(real(turned[axis])), most * most);
+      EXPECT_EQ(followed.points[at].anchor_b, found.points[at].anchor_b);
+    }
+  }
 }
 
 }  // namespace

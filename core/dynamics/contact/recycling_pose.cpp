@@ -11,7 +11,7 @@ namespace lockstone {
 namespace {
 
 // Fraction bits of the angles of a pose delta.
-constexpr int k_turn_bits = 34;
+constexpr int k_turn_bits = 32;
 
 // Steps of lengths within those of positions.
 constexpr int k_place_shift = Position::frac_bits - Length::frac_bits;
@@ -25,8 +25,8 @@ std::int64_t way_of(const BodyRecord& body, int axis) {
   return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + remainder;
 }
 
-// A position in steps of Length: to nearest, ties to even. So it is the same, but for a translation,
-// wherever a world is moved by whole metres, and mirrored in a mirror image.
+// A position in steps of Length: to nearest, ties to even. So it is the same, but for a
+// translation, wherever a world is moved by whole metres, and mirrored in a mirror image.
 std::int64_t steps_of(Position position) {
   constexpr std::int64_t k_half = std::int64_t{1} << (k_place_shift - 1);
   const std::int64_t below = position.raw >> k_place_shift;
@@ -40,6 +40,19 @@ std::int64_t within_bits(std::int64_t x, int bits) {
   return std::clamp(x, -most, most);
 }
 
+// r + turn × r.
+void turn_anchor(const PoseDelta& delta, Vec3<Length>& anchor) {
+  const std::int64_t x = anchor.x.raw, y = anchor.y.raw, z = anchor.z.raw;
+  const auto& turn = delta.turn;
+  LKS_ASSERT(delta.is_wide);
+  const auto add = [](Length& to, std::int64_t by) {
+    to.raw = raw::saturate<std::int32_t>(to.raw + raw::round_shift(by, k_turn_bits));
+  };
+  add(anchor.x, turn[1] * z - turn[2] * y);
+  add(anchor.y, turn[2] * x - turn[0] * z);
+  add(anchor.z, turn[0] * y - turn[1] * x);
+}
+
 }  // namespace
 
 Vec3<Position> recycling_position(const BodyRecord& body) {
@@ -49,9 +62,10 @@ Vec3<Position> recycling_position(const BodyRecord& body) {
   return place;
 }
 
-bool is_near_recycling_pose(const BodyRecord& body, int delta) {
-  LKS_ASSERT(delta == k_fine_delta || delta == k_coarse_delta);
-  const int exponent = std::min(delta, body.scale_exponent + delta);
+bool is_near_recycling_pose(const BodyRecord& body, const RecyclingRange& range) {
+  LKS_ASSERT(range.metres <= k_wide_range.metres && range.scales <= k_wide_range.scales);
+  const int exponent = std::min(range.metres, body.scale_exponent + range.scales);
+  LKS_ASSERT(exponent <= k_wide_range.metres);
   // A place is rounded to a step of lengths.
   const std::int64_t way = std::int64_t{1}
                            << std::max(Position::frac_bits + exponent, k_place_shift + 1);
@@ -74,28 +88,29 @@ PoseDelta pose_delta_of(const BodyRecord& body) {
   PoseDelta delta;
   for (int i = 0; i < 3; ++i) {
     delta.way[static_cast<std::size_t>(i)] =
-        static_cast<std::int32_t>(within_bits(way_of(body, i), 25));
+        static_cast<std::int32_t>(within_bits(way_of(body, i), 27));
   }
+  delta.is_wide = !is_near_recycling_pose(body, k_coarse_range);
   const Quat& then = body.recycling_orientation;
   if (body.orientation == then) return delta;
   // The vector of now · then*, of which the part then · then* is none. Q60, halved.
-  const std::int64_t x = within_bits(std::int64_t{body.orientation.x.raw} - then.x.raw, 22);
-  const std::int64_t y = within_bits(std::int64_t{body.orientation.y.raw} - then.y.raw, 22);
-  const std::int64_t z = within_bits(std::int64_t{body.orientation.z.raw} - then.z.raw, 22);
-  const std::int64_t w = within_bits(std::int64_t{body.orientation.w.raw} - then.w.raw, 22);
+  const std::int64_t x = within_bits(std::int64_t{body.orientation.x.raw} - then.x.raw, 27);
+  const std::int64_t y = within_bits(std::int64_t{body.orientation.y.raw} - then.y.raw, 27);
+  const std::int64_t z = within_bits(std::int64_t{body.orientation.z.raw} - then.z.raw, 27);
+  const std::int64_t w = within_bits(std::int64_t{body.orientation.w.raw} - then.w.raw, 27);
   const std::int64_t half[] = {x * then.w.raw - w * then.x.raw - y * then.z.raw + z * then.y.raw,
                                y * then.w.raw - w * then.y.raw - z * then.x.raw + x * then.z.raw,
                                z * then.w.raw - w * then.z.raw - x * then.y.raw + y * then.x.raw};
   for (std::size_t i = 0; i < 3; ++i)
     delta.turn[i] =
-        static_cast<std::int32_t>(within_bits(raw::round_shift(half[i], 59 - k_turn_bits), 27));
+        static_cast<std::int32_t>(within_bits(raw::round_shift(half[i], 59 - k_turn_bits), 29));
   return delta;
 }
 
-void shift_separations(const PoseDelta& a, const PoseDelta& b, Manifold& manifold) {
+void shift_manifold(const PoseDelta& a, const PoseDelta& b, Manifold& manifold) {
   LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   const Vec3<Unit>& n = manifold.normal;
-  // n × turn, Q34: n · (turn × r) = r · (n × turn).
+  // n × turn, Q32: n · (turn × r) = r · (n × turn).
   const auto across = [&](const PoseDelta& delta) -> RawVec3 {
     const auto& turn = delta.turn;
     const auto part = [](std::int64_t x) { return raw::round_shift(x, Unit::frac_bits); };
@@ -119,6 +134,8 @@ void shift_separations(const PoseDelta& a, const PoseDelta& b, Manifold& manifol
     point.separation.raw = raw::saturate<std::int32_t>(
         point.separation.raw +
         raw::round_shift(by, k_turn_bits + Length::frac_bits - Displacement::frac_bits));
+    if (a.is_wide) turn_anchor(a, point.anchor_a);
+    if (b.is_wide) turn_anchor(b, point.anchor_b);
   }
 }
 

@@ -19,7 +19,8 @@ namespace lockstone {
 /// How far a body is from its recycling pose.
 struct PoseDelta {
   std::array<std::int32_t, 3> way{};   // of the centre, m, Q32
-  std::array<std::int32_t, 3> turn{};  // rotation vector, rad, Q34
+  std::array<std::int32_t, 3> turn{};  // rotation vector, rad, Q32
+  bool is_wide = false;                // beyond k_coarse_range
 
   friend bool operator==(const PoseDelta&, const PoseDelta&) = default;
   [[nodiscard]] bool is_none() const {
@@ -31,15 +32,24 @@ struct PoseDelta {
 /// geometry reads it as it is.
 [[nodiscard]] Vec3<Position> recycling_position(const BodyRecord& body);
 
-/// How far a body may be from its recycling pose, as powers of two: in large stacks, which are
-/// rebalanced to a finer measure; and in all other islands that iterations solve.
-inline constexpr int k_fine_delta = -14;
-inline constexpr int k_coarse_delta = -9;
+/// How far a body may be from its recycling pose: 2^metres m, or 2^scales of its scale where that
+/// is less.
+struct RecyclingRange {
+  int metres, scales;
+};
+/// In large stacks, which are rebalanced to a finer measure.
+inline constexpr RecyclingRange k_fine_range{-14, -14};
+/// In all other islands that iterations solve.
+inline constexpr RecyclingRange k_coarse_range{-9, -9};
+/// In a pile whose bodies are all as near: 16 mm. Thin bodies that have passed each other are
+/// jammed: they tremble from one pair of features to another, which overlaps as much, and rest only
+/// where both stay as they are (docs/notes/thin-bodies.md). Box3D goes 50 mm and 14 degrees.
+inline constexpr RecyclingRange k_wide_range{-6, -3};
 
-/// Whether centre and surface are within 2^delta m of the recycling pose, or 2^delta of the body's
-/// scale where that is less (the centre, within 2^-19 m at least). Of every stored body it holds
-/// with k_coarse_delta.
-[[nodiscard]] bool is_near_recycling_pose(const BodyRecord& body, int delta = k_coarse_delta);
+/// Whether centre and surface are so near to the recycling pose (the centre, within 2^-19 m at
+/// least). Of every stored body it holds with k_wide_range.
+[[nodiscard]] bool is_near_recycling_pose(const BodyRecord& body,
+                                          const RecyclingRange& range = k_coarse_range);
 
 /// The recycling pose is the body's own from now on.
 void set_recycling_pose(BodyRecord& body);
@@ -48,7 +58,8 @@ void set_recycling_pose(BodyRecord& body);
 [[nodiscard]] PoseDelta pose_delta_of(const BodyRecord& body);
 
 /// From separations at the recycling poses to those where the bodies are: along the normal, to
-/// first order; the error is below 2^-17 m for bodies of a metre.
-void shift_separations(const PoseDelta& a, const PoseDelta& b, Manifold& manifold);
+/// first order; the error is below 2^-17 m for bodies of a metre within k_coarse_range. Beyond it
+/// anchors turn with their bodies, too.
+void shift_manifold(const PoseDelta& a, const PoseDelta& b, Manifold& manifold);
 
 }  // namespace lockstone

@@ -52,12 +52,13 @@ struct IslandTally {
   std::uint32_t contacts = 0;
   std::uint32_t joints = 0;
   std::int32_t least_share = 1 << 30;  ///< of the masses of two that touch or are jointed, Q30
-  std::uint32_t loose = 0;             ///< bodies that were of a loose pile in the last tick
+  std::uint32_t loose = 0;             ///< bodies whose pile stays loose, unstirred
   std::uint32_t stirred = 0;           ///< bodies much faster or slower than the island as a whole
   std::int32_t velocity[3]{};          ///< the mean of its bodies, 1/16 m/s
   std::uint32_t fresh = 0;             ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;           ///< contacts whose mean impulse is several times a weight
   SharedCount moved{};                 ///< bodies whose poses have changed in the tick
+  SharedCount strayed{};               ///< bodies beyond k_wide_range of their recycling poses
   SharedCount overloaded{};  ///< contacts at rest under several times a body's weight; from
                              ///< k_most_overloaded + 1 on it may be any greater number
 

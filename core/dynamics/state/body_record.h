@@ -18,7 +18,6 @@ enum BodyFlag : std::uint8_t {
   k_body_asleep = 8,          // neither moves nor is looked at; its velocities are zero
   k_body_no_sleep = 16,       // never falls asleep
   k_body_changed_sleep = 32,  // sleeps and did not at the last events, or the reverse; dynamic
-  k_body_loose = 64,          // of a loose pile in the last tick that solved it, effort_policy.h
   k_body_no_contact_events = 128,
 };
 
@@ -76,10 +75,11 @@ struct BodyRecord {
   std::uint8_t flags = 0;        // BodyFlag
   std::int8_t scale_exponent = 0;
   std::int8_t inverse_mass_exponent = 0;
-  std::uint8_t locks = 0;         // BodyLock
-  std::uint16_t rest_ticks = 0;   // since it rests
-  std::uint16_t still_ticks = 0;  // StillRules: since its island moved
-  SolverVelocity hit_speed{};     // EventSettings::hit_speed
+  std::uint8_t locks = 0;        // BodyLock
+  std::uint16_t rest_ticks = 0;  // since it rests
+  std::uint8_t still_ticks = 0;  // StillIslands: since its island moved
+  std::uint8_t loose_time = 0;   // EffortPolicy: for so long its pile stays loose, unstirred
+  SolverVelocity hit_speed{};    // EventSettings::hit_speed
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
 
@@ -160,7 +160,7 @@ struct BodyRecord {
   return (body.locks & k_body_disabled) == 0;
 }
 [[nodiscard]] inline bool is_loose(const BodyRecord& body) {
-  return (body.flags & k_body_loose) != 0;
+  return body.loose_time != 0;
 }
 
 /// EventSettings::contacts.
@@ -179,7 +179,7 @@ struct BodyRecord {
   X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) \
   X(friction) X(restitution) X(rolling_resistance) X(tag) X(category) X(mask) X(group) \
   X(generation) X(rules) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
-  X(inverse_mass_exponent) X(locks) X(rest_ticks) X(still_ticks) X(hit_speed)
+  X(inverse_mass_exponent) X(locks) X(rest_ticks) X(still_ticks) X(loose_time) X(hit_speed)
 // clang-format on
 
 template <class F>

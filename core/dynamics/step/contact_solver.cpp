@@ -241,13 +241,18 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
 
 bool ContactSolver::keeps_recycling_pose(const IslandTally* island, const BodyRecord& record) {
   if (island == nullptr || island->is_converged) return false;
-  return is_near_recycling_pose(record, island->is_stack() ? k_fine_delta : k_coarse_delta);
+  if (island->is_stack()) return is_near_recycling_pose(record, k_fine_range);
+  const bool is_quiet_pile = island->may_be_loose() && island->strayed.get() == 0;
+  return is_quiet_pile || is_near_recycling_pose(record, k_coarse_range);
 }
 
-void ContactSolver::note_moved(std::uint32_t body) {
+void ContactSolver::note_moved(std::uint32_t body, const BodyRecord& record) {
   const std::uint32_t number = bodies_.number_of(body);
   const std::uint32_t island = number == 0 ? 0 : islands_.of(BodyRef::numbered(number));
-  if (island != 0) islands_.tally(island).moved.raise();
+  if (island == 0) return;
+  IslandTally& tally = islands_.tally(island);
+  tally.moved.raise();
+  if (tally.may_be_loose() && !is_near_recycling_pose(record, k_wide_range)) tally.strayed.raise();
 }
 
 EnergyLimit::Bodies ContactSolver::energy_bodies() {

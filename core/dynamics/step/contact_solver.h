@@ -97,7 +97,7 @@ class ContactSolver {
                                                  const BodyRecord& record);
 
   /// A body of an island has another pose than at the tick's beginning. From any thread.
-  void note_moved(std::uint32_t body);
+  void note_moved(std::uint32_t body, const BodyRecord& record);
   /// The counts of a body's island; null of a body that is in none.
   [[nodiscard]] const IslandTally* island_of(std::uint32_t body) const {
     return islands_.find(bodies_, body);

@@ -85,7 +85,8 @@ bool can_take_shape(const World::Impl& world, const SetShape& command,
 void BodyRegistry::leave(std::uint32_t body) {
   BodyRecord& record = world_.bodies[body];
   if (record.is_pushed()) end_pushes(record, flags_.rest_rules());
-  record.flags &= static_cast<std::uint8_t>(~(k_body_changed_sleep | k_body_loose));
+  record.flags &= static_cast<std::uint8_t>(~k_body_changed_sleep);
+  record.loose_time = 0;
   flags_.forget(body);
   drop_contacts_of(body);
   joints_.forget_impulses_of(body);
@@ -151,7 +152,7 @@ void CommandExecutor::change_shape(const SetShape& command, const geometry::Asse
       surface_velocity(inverse_inertia(old, world_.cache.rotation(body)), old.spin);
   record = reshaped(world_, command, asset);
   rescale_speed_limit(record, old.scale_exponent);
-  record.flags &= static_cast<std::uint8_t>(~k_body_loose);
+  record.loose_time = 0;
   if (record.moves()) {
     record.velocity += velocity_around(turning, record.position - old.position, old.scale_exponent);
     clamp_speed(record.velocity);

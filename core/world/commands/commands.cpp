@@ -184,7 +184,7 @@ Status CommandExecutor::execute(const Teleport& command) {
   world_.body_registry.drop_contacts_of(command.body.index);
   record->position = pose.position;
   record->orientation = pose.orientation;
-  record->flags &= static_cast<std::uint8_t>(~k_body_loose);
+  record->loose_time = 0;
   set_recycling_pose(*record);
   begin_rest(*record, world_.sleep_flags.rest_rules());
   world_.refresh(command.body.index);

@@ -60,6 +60,8 @@ class BodyCache {
 
   /// The body's shape where it is.
   [[nodiscard]] PlacedShape placed(std::uint32_t body, const BodyRecord& record) const;
+  /// The body's shape at its recycling pose.
+  [[nodiscard]] PlacedShape recycled(std::uint32_t body, const BodyRecord& record) const;
 
   /// After any change of the record but its shape.
   void refresh(std::uint32_t body, const BodyRecord& record);

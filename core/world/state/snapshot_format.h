@@ -12,7 +12,7 @@
 namespace lockstone {
 
 inline constexpr std::uint32_t k_snapshot_magic = 0x57534b4c;  // "LKSW"
-inline constexpr std::uint16_t k_snapshot_version = 3;
+inline constexpr std::uint16_t k_snapshot_version = 4;
 inline constexpr std::size_t k_snapshot_front_bytes = 4 + 2 + 2 + 8;
 inline constexpr std::size_t k_snapshot_frame_bytes = k_snapshot_front_bytes + 8;
 

@@ -264,7 +264,7 @@ TEST(FlippedBit, NeedsAPlaceThatIsThere) {
 bool is_free(const std::string& field) {
   // clang-format off
   static const std::set<std::string> k_free{
-      "tick", "user_data", "category", "mask", "group", "tag", "rest_ticks", "still_ticks", "union_a", "union_b", "union_c"};
+      "tick", "user_data", "category", "mask", "group", "tag", "rest_ticks", "still_ticks", "loose_time", "union_a", "union_b", "union_c"};
   // clang-format on
   return k_free.contains(field.substr(0, field.find('.')));
 }

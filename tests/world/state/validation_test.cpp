@@ -75,7 +75,7 @@ TEST(Validation, FindsEachKindOfFault) {
   const Flip flips[] = {
       {"body", 3, "orientation.w", 29, "a body's record"},
       {"body", 3, "position.x", 33, "the bounds of a body"},
-      {"body", 3, "recycling_place.x", 13, "the recycling pose of a body"},
+      {"body", 3, "recycling_place.x", 17, "the recycling pose of a body"},
       {"body", 3, "recycling_place.x", 0, "the pose delta of a body"},
       {"body", 3, "inverse_mass", 30, "a body's record"},
       {"body", 3, "orientation.x", 1, "the rotation of a body"},

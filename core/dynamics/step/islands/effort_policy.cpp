@@ -40,7 +40,7 @@ std::int32_t coarse(Velocity v) {
 }
 
 // Whether a body differs from the mean velocity of its island by more than 1/4 m/s along an axis.
-bool is_stirred(const BodyRecord& body, const IslandTally& island) {
+bool has_own_velocity(const BodyRecord& body, const IslandTally& island) {
   constexpr std::int32_t k_fast = 4;
   for (int i = 0; i < 3; ++i)
     if (std::abs(coarse(body.velocity[i]) - island.velocity[i]) > k_fast) return true;
@@ -136,15 +136,29 @@ void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bod
       component /= static_cast<std::int32_t>(island.bodies);
   }
   for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
-    if (island.may_be_loose() && is_stirred(body, island)) ++island.stirred;
+    if (island.may_be_loose() && has_own_velocity(body, island)) ++island.stirred;
   });
   for (std::uint32_t index = 1; index < islands.count(); ++index)
     islands.tally(index).is_loose = is_loose_pile(islands.tally(index));
 }
 
+bool EffortPolicy::is_stirred(const IslandTally& island) {
+  return island.stirred > island.bodies / 4;
+}
+
 bool EffortPolicy::is_loose_pile(const IslandTally& island) {
-  return island.may_be_loose() &&
-         (island.stirred > island.bodies / 4 || island.loose > island.bodies / 2);
+  return island.may_be_loose() && (is_stirred(island) || island.loose > island.bodies / 2);
+}
+
+std::uint8_t EffortPolicy::loose_time(const IslandTally& island, const BodyRecord& body,
+                                      const TimeStep& step, std::uint64_t tick) {
+  constexpr std::int32_t k_seconds = 4, k_unit_rate = 60;
+  if (!island.is_loose) return 0;
+  const std::int32_t most = k_seconds * std::min(step.tick_rate, k_unit_rate);
+  if (is_stirred(island)) return static_cast<std::uint8_t>(most);
+  const int unit = std::max(step.tick_rate / k_unit_rate, 1);
+  const bool counts = tick % static_cast<std::uint64_t>(unit) == 0;
+  return static_cast<std::uint8_t>(std::max(body.loose_time - (counts ? 1 : 0), 0));
 }
 
 bool EffortPolicy::may_converge(const IslandTally& island) const {

@@ -34,14 +34,21 @@ class EffortPolicy {
                             const ContactList& contacts, const TickJoints& joints,
                             IslandBuilder& islands);
 
-  /// Whether an island that may be loose is a loose pile: more than a quarter of its bodies differ
-  /// from their mean velocity by 1/4 m/s, or more than half of them were in one in the last tick.
-  /// Iterations bring such a pile to rest sooner, at a tenth of the cost.
+  /// Whether an island that may be loose is a loose pile: it is stirred, as more than a quarter of
+  /// its bodies differ from their mean velocity by 1/4 m/s, or it was so within four seconds.
+  /// Iterations bring most such piles to rest by then, at a tenth of the cost. One that still moves
+  /// is jammed, and only converged contacts let it rest.
   [[nodiscard]] static bool is_loose_pile(const IslandTally& island);
 
   /// Marks loose piles, once the counts of islands are known.
   static void mark_loose(const ContactScene& scene, const SolverBodies& bodies,
                          IslandBuilder& islands);
+
+  /// The `loose_time` of a body of an island once it was solved: four seconds if it was stirred, in
+  /// ticks or, where these are shorter, in sixtieths of a second (rounded to whole ticks); else it
+  /// runs out.
+  [[nodiscard]] static std::uint8_t loose_time(const IslandTally& island, const BodyRecord& body,
+                                               const TimeStep& step, std::uint64_t tick);
 
   /// Whether an island, whose counts are known, may be solved to convergence.
   [[nodiscard]] bool may_converge(const IslandTally& island) const;
@@ -65,6 +72,8 @@ class EffortPolicy {
                                           const ContactRef& contact, std::int64_t share_b);
 
  private:
+  [[nodiscard]] static bool is_stirred(const IslandTally& island);
+
   // From one rebalance of a stack to the next.
   static constexpr std::uint64_t k_rebalance_ticks = 64;
 

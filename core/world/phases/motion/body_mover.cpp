@@ -57,9 +57,10 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
     ++counts.free_bodies;
   }
   const IslandTally* island = solver_.island_of(body);
-  const bool is_loose = island != nullptr && island->is_loose;
-  record.flags = static_cast<std::uint8_t>(is_loose ? record.flags | k_body_loose
-                                                    : record.flags & ~k_body_loose);
+  record.loose_time =
+      island == nullptr
+          ? 0
+          : EffortPolicy::loose_time(*island, record, world_.time_step, world_.header.tick);
   damp_spin(record, world_.time_step);
   apply_axis_locks(record);
   const InverseInertia inertia = inertia_of(body, solved);
@@ -69,7 +70,7 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
   const Transform& start = moved_.start(body);
   if (solved != nullptr &&
       (record.position != start.position || record.orientation != start.orientation))
-    solver_.note_moved(body);
+    solver_.note_moved(body, record);
 }
 
 // The inverse inertia by which its spin is limited. A body without spin needs none.

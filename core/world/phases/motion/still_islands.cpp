@@ -11,8 +11,8 @@ namespace lockstone {
 namespace {
 
 // An eighth of a second, and not so few ticks that chance decides.
-std::uint16_t ticks_of(std::int32_t tick_rate) {
-  return static_cast<std::uint16_t>(std::max(tick_rate / 8, 4));
+std::uint8_t ticks_of(std::int32_t tick_rate) {
+  return static_cast<std::uint8_t>(std::max(tick_rate / 8, 4));
 }
 
 // Below 61 µm/s along each axis.
@@ -142,7 +142,7 @@ void StillIslands::keep(std::uint32_t body) {
   bodies_.push_back(body);
   if (record.still_ticks > ticks_) return;
   record.velocity = record.spin = {};
-  record.still_ticks = static_cast<std::uint16_t>(ticks_ + 1);
+  record.still_ticks = static_cast<std::uint8_t>(ticks_ + 1);
   world_.hashes.bodies.mark(body);
 }
 
@@ -156,8 +156,8 @@ void StillIslands::leave_out_contacts() {
   }
 }
 
-std::uint16_t StillIslands::count_on(const BodyRecord& body) const {
-  return static_cast<std::uint16_t>(std::min<int>(body.still_ticks + 1, ticks_));
+std::uint8_t StillIslands::count_on(const BodyRecord& body) const {
+  return static_cast<std::uint8_t>(std::min<int>(body.still_ticks + 1, ticks_));
 }
 
 }  // namespace lockstone

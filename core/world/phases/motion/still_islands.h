@@ -43,7 +43,7 @@ class StillIslands {
   [[nodiscard]] std::uint32_t points() const { return points_; }
 
   /// The still_ticks of a body of whose island nothing moved in this tick, once it was solved.
-  [[nodiscard]] std::uint16_t count_on(const BodyRecord& body) const;
+  [[nodiscard]] std::uint8_t count_on(const BodyRecord& body) const;
 
  private:
   [[nodiscard]] bool is_nearly_still(const BodyRecord& body) const;

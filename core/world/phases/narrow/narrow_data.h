@@ -36,11 +36,14 @@ struct NarrowData {
 };
 
 /// Where pairs are collided whose bodies may move away from their recycling poses: faces and edges
-/// of boxes stay where they are while their bodies move so little; round shapes touch elsewhere at
-/// once, and are soon collided.
+/// of boxes and hulls stay where they are while their bodies move so little; round shapes touch
+/// elsewhere at once, and are soon collided.
 [[nodiscard]] inline bool is_found_at_recycling_poses(const WorldData& world, const Pair& pair) {
-  constexpr auto k_box = static_cast<std::uint8_t>(ShapeKind::box);
-  return world.bodies[pair.a].shape_kind == k_box && world.bodies[pair.b].shape_kind == k_box;
+  const auto has_faces = [&](std::uint32_t body) {
+    const auto kind = static_cast<ShapeKind>(world.bodies[body].shape_kind);
+    return kind == ShapeKind::box || kind == ShapeKind::hull;
+  };
+  return has_faces(pair.a) && has_faces(pair.b);
 }
 
 /// Whether the body has one part, 0: no compound and no mesh.

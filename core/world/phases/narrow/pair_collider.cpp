@@ -90,9 +90,12 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
     read_poses(pair, margin, input);
   }
   entry.held = held_features(before, a.shape(), b.shape());
-  input.held = held_own(entry.held);
+  // Anchors that turned with their bodies are no more those that were found.
+  const bool turns = is_recycled && (world_.cache.pose_delta(pair.a).is_wide ||
+                                     world_.cache.pose_delta(pair.b).is_wide);
+  input.held = turns ? ManifoldInput::k_holds_others : held_own(entry.held);
   const std::uint32_t known = remembered_manifold(before);
-  const bool is_known = known != ManifoldIds::k_none &&
+  const bool is_known = !turns && known != ManifoldIds::k_none &&
                         (is_recycled ? data_.notes_before.inputs[known].has_same_poses(input)
                                      : data_.notes_before.inputs[known] == input);
   if (is_known) {
@@ -100,9 +103,8 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
     return add_known(index, known, input, before);
   }
   if (is_recycled) input.offset = rounded<Position>(recycling_offset(a, b));
-  if (is_recycled || are_primitives(pair))
-    return collide_primitives(index, before, last_axis, timer);
-  const PlacedShape shape_a = world_.placed(pair.a), shape_b = world_.placed(pair.b);
+  if (are_primitives(pair)) return collide_primitives(index, before, last_axis, timer);
+  const PlacedShape shape_a = placed(pair.a, is_recycled), shape_b = placed(pair.b, is_recycled);
   if (last_axis != Vec3<Unit>{} && separated_along(shape_a, shape_b, margin, last_axis)) {
     data_.separating_axes.note(index, pair, last_axis);
     return timer.found_apart();
@@ -136,19 +138,13 @@ void PairCollider::collide_one_way(std::uint32_t index, std::span<const ContactR
 }
 
 void PairCollider::collide_all_parts(const Pair& pair, PartContacts& parts) const {
-  const Length margin = margin_of(world_, pair);
-  const BodyRecord &a = world_.bodies[pair.a], &b = world_.bodies[pair.b];
-  if (!is_found_at_recycling_poses(world_, pair)) {
-    return collide_bodies(world_.placed(pair.a), world_.placed(pair.b), margin,
-                          scratch_.triangles.get(), parts);
-  }
-  const Shape shape_a = a.shape(), shape_b = b.shape();
-  const std::vector<Mat3>& turned = world_.cache.recycling_rotations();
-  parts.clear();
-  PartContact contact;
-  lockstone::collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]}, recycling_offset(a, b),
-                     margin, contact.manifold);
-  if (contact.manifold.count > 0) parts.add(contact);
+  const bool is_recycled = is_found_at_recycling_poses(world_, pair);
+  collide_bodies(placed(pair.a, is_recycled), placed(pair.b, is_recycled), margin_of(world_, pair),
+                 scratch_.triangles.get(), parts);
+}
+
+PlacedShape PairCollider::placed(std::uint32_t body, bool is_recycled) const {
+  return is_recycled ? world_.cache.recycled(body, world_.bodies[body]) : world_.placed(body);
 }
 
 // For primitive shapes the manifold is made where it stays. Its inputs are in the next waiting
@@ -263,7 +259,7 @@ void PairCollider::fill(std::uint32_t id, const ContactKey& key, const Surface* 
 void PairCollider::shift_by_pose_delta(const Pair& pair, Manifold& manifold) const {
   if (!is_found_at_recycling_poses(world_, pair)) return;
   const PoseDelta &a = world_.cache.pose_delta(pair.a), &b = world_.cache.pose_delta(pair.b);
-  if (!a.is_none() || !b.is_none()) shift_separations(a, b, manifold);
+  if (!a.is_none() || !b.is_none()) shift_manifold(a, b, manifold);
 }
 
 // Neither an asset nor without end: its frame is the body's.

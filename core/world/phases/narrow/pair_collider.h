@@ -28,6 +28,8 @@ class PairCollider {
 
  private:
   [[nodiscard]] std::uint32_t remembered_manifold(std::span<const ContactRecord> before) const;
+  // Where it is, or at its recycling pose.
+  [[nodiscard]] PlacedShape placed(std::uint32_t body, bool is_recycled) const;
   void read_poses(const Pair& pair, Length margin, ManifoldInput& input) const;
   [[nodiscard]] bool are_primitives(const Pair& pair) const;
   [[nodiscard]] bool is_bounded_primitive(std::uint32_t body) const;

@@ -138,11 +138,15 @@ void SeamSearch::list_contacts_of(std::uint32_t pair) {
 TouchedPoint SeamSearch::point_of(const SeamContact& contact, int point) const {
   const auto at = static_cast<std::size_t>(point);
   const BodyRecord& record = world_.bodies[body_];
-  const Vec3<Length>& anchor = data_.found.manifolds[contact.id].points[at].anchor_a;
-  const Displacement separation = data_.notes.separations[contact.id][at];
+  const ManifoldPoint& found = data_.found.manifolds[contact.id].points[at];
+  const Vec3<Length>& anchor = found.anchor_a;
+  // Anchors that turned are seen from where the body is.
+  const bool is_recycled = is_found_at_recycling_poses(world_, {body_, contact.other}) &&
+                           !world_.cache.pose_delta(body_).is_wide;
+  const Displacement separation =
+      is_recycled ? data_.notes.separations[contact.id][at] : found.separation;
   const bool halves = separation.raw < 0 && !is_round(record.shape().kind);
   const Displacement way = halves ? separation / 2 : separation;
-  const bool is_recycled = is_found_at_recycling_poses(world_, {body_, contact.other});
   const Vec3<Position> centre = is_recycled ? recycling_position(record) : record.position;
   return {centre + anchor - rounded<Position>(contact.normal * way), contact.normal};
 }
