@@ -5,6 +5,7 @@ import { Body } from "../../web/src/body.js";
 import { type OutlinePart, outlineOf } from "../../web/src/outline.js";
 import type { World } from "../../web/src/world.js";
 import { STRIDE, State } from "./engine.js";
+import { SOFTWARE } from "./software.js";
 
 /** A part of a body: the form that it shares with others, and its place in the body. */
 interface Part {
@@ -17,24 +18,30 @@ export type Painter = (row: number, state: number, island: number, out: three.Co
 
 const FLOOR_SIZE = 400;
 const FIRST_ROOM = 16;
+// Facets of round forms: around, and from pole to pole. A processor pays for each corner twice, in the picture and in the shadow.
+const [AROUND, ALONG] = SOFTWARE ? [12, 8] : [24, 14];
 
 function unitGeometry(kind: number): three.BufferGeometry {
   switch (kind) {
-    case c.LKS_SPHERE: return new three.SphereGeometry(1, 20, 14);
+    case c.LKS_SPHERE: return new three.SphereGeometry(1, AROUND, ALONG);
     case c.LKS_BOX: return new three.BoxGeometry(2, 2, 2);
-    case c.LKS_CYLINDER: return new three.CylinderGeometry(1, 1, 2, 24);
-    case c.LKS_CONE: return new three.ConeGeometry(1, 1, 24).translate(0, 0.25, 0);
+    case c.LKS_CYLINDER: return new three.CylinderGeometry(1, 1, 2, AROUND);
+    case c.LKS_CONE: return new three.ConeGeometry(1, 1, AROUND).translate(0, 0.25, 0);
     default: return new three.PlaneGeometry(FLOOR_SIZE, FLOOR_SIZE).rotateX(-Math.PI / 2);
   }
 }
 
+function material(roughness: number, look: three.MeshLambertMaterialParameters): three.MeshLambertMaterial | three.MeshStandardMaterial {
+  return SOFTWARE ? new three.MeshLambertMaterial(look) : new three.MeshStandardMaterial({ ...look, roughness });
+}
+
 /** The hull of two balls, its centre of mass at the origin: `tapered_ends.cpp` has the formula. */
 function taperedGeometry(a: number, height: number, b: number): three.BufferGeometry {
-  if (Math.abs(a - b) >= height) return new three.SphereGeometry(Math.max(a, b), 20, 14);
+  if (Math.abs(a - b) >= height) return new three.SphereGeometry(Math.max(a, b), AROUND, ALONG);
   const slope = (a - b) / height;
   const centre = (height * (1 - slope) ** 2 * (height * (a * a + 2 * a * b + 3 * b * b) + (2 + slope) * (a + b) * (a * a + b * b)))
     / (4 * (height * (a * a + a * b + b * b) * (1 + slope * slope) + 2 * (a ** 3 + b ** 3)));
-  const tangent = Math.asin(slope), arcSteps = 8;
+  const tangent = Math.asin(slope), arcSteps = ALONG / 2;
   const outline: three.Vector2[] = [];
   const addArc = (radius: number, y: number, from: number, to: number): void => {
     for (let i = 0; i <= arcSteps; ++i) {
@@ -44,7 +51,7 @@ function taperedGeometry(a: number, height: number, b: number): three.BufferGeom
   };
   addArc(a, -centre, -Math.PI / 2, tangent);
   addArc(b, height - centre, tangent, Math.PI / 2);
-  return new three.LatheGeometry(outline, 20);
+  return new three.LatheGeometry(outline, AROUND);
 }
 
 /** Meshes of one form; solid or transparent. */
@@ -104,9 +111,9 @@ export class Bodies {
   private readonly batches = new Map<string, Batch>();
   private readonly outlines = new Map<string, Part[]>();
   private readonly geometries = new Map<string, three.BufferGeometry>();
-  private readonly solid = new three.MeshStandardMaterial({ roughness: 0.75, flatShading: true, side: three.DoubleSide });
-  private readonly clear = new three.MeshStandardMaterial({ roughness: 0.9, transparent: true, opacity: 0.25, depthWrite: false });
-  readonly floor = new three.MeshStandardMaterial({ roughness: 1 });
+  private readonly solid = material(0.75, { flatShading: true, side: three.DoubleSide });
+  private readonly clear = material(0.9, { transparent: true, opacity: 0.25, depthWrite: false });
+  readonly floor = material(1, {});
 
   constructor() {
     const grid = gridTexture();
@@ -166,7 +173,7 @@ export class Bodies {
     const [x = 1, y = 1, z = 1] = size;
     const form = kind === c.LKS_CAPSULE ? `capsule ${x} ${y}` : kind === c.LKS_TAPERED_CAPSULE ? `tapered ${x} ${y} ${z}` : kind === c.LKS_HALF_SPACE ? "floor" : `form ${kind}`;
     if (!this.geometries.has(form)) {
-      this.geometries.set(form, kind === c.LKS_CAPSULE ? new three.CapsuleGeometry(x, 2 * y, 6, 16)
+      this.geometries.set(form, kind === c.LKS_CAPSULE ? new three.CapsuleGeometry(x, 2 * y, ALONG / 2, AROUND)
         : kind === c.LKS_TAPERED_CAPSULE ? taperedGeometry(x, y, z) : unitGeometry(kind));
     }
     const scale = kind === c.LKS_SPHERE ? [x, x, x] : kind === c.LKS_BOX ? [x, y, z]
@@ -201,7 +208,7 @@ function gridTexture(): three.Texture {
   pen.strokeRect(0, size / 2, size, 0.1);
   const texture = new three.CanvasTexture(canvas);
   texture.wrapS = texture.wrapT = three.RepeatWrapping;
-  texture.anisotropy = 8;
+  texture.anisotropy = SOFTWARE ? 1 : 8;
   texture.colorSpace = three.SRGBColorSpace;
   return texture;
 }

@@ -27,12 +27,12 @@ type ViewName = keyof typeof VIEWS;
 
 // Events after which the picture may be another one.
 const STIRRING = ["pointerdown", "pointermove", "pointerup", "wheel", "keydown", "input", "change", "click", "resize"];
-const AWAKE_MS = 400; // that frames are drawn after one
-const IDLE_MS = 500; // between frames without any
+const SETTLE_MS = 150; // between a frame drawn after one and the next, which has what the first one's figures changed
+const IDLE_MS = 500; // between frames later on
 
 let mode: Mode | null = null;
-let awakeUntil = 0;
-let drawnAt = 0;
+let stirred = true;
+let dueAt = 0; // of the next frame if nothing stirs
 const picture = new Picture(byId<HTMLCanvasElement>("picture"));
 const transport = new Transport(() => mode);
 new Hand(picture, () => mode);
@@ -109,7 +109,7 @@ async function openSafely(engine: Engine, session: Session, view: ViewName): Pro
   tell("Opening …");
   try {
     await open(engine, session, view);
-    awakeUntil = performance.now() + AWAKE_MS;
+    stirred = true;
     tell("");
   } catch (error) {
     tell(error instanceof Error ? error.message : String(error));
@@ -133,8 +133,11 @@ function frame(now: number): void {
   else if (sequence.ready) transport.advanceOnce();
   if (!mode) return;
   const { fraction, goal } = mode;
-  if (fraction === undefined && !goal && !transport.playing && !clip.runs && !sequence.runs && now > awakeUntil && now < drawnAt + IDLE_MS) return;
-  drawnAt = now;
+  const moves = Boolean(goal) || transport.playing;
+  const wanted = stirred || moves || fraction !== undefined || clip.runs || sequence.runs;
+  if (!wanted && now < dueAt) return;
+  dueAt = now + (wanted ? SETTLE_MS : IDLE_MS);
+  stirred = moves; // the tick that it stops at is drawn too
   const pulled = mode instanceof Testbed ? mode.pulled : null;
   picture.draw(mode.dioramas, fraction ?? (sequence.runs ? 1 : transport.fraction), mode.shown, pulled);
   sequence.take(mode.lead.tick);
@@ -151,7 +154,7 @@ async function begin(): Promise<void> {
   byId("shoot").onclick = savePicture;
   byId("keys").append(make("h2", {}, "Keys"), ...KEYS.map(([key, text]) => make("p", {}, make("kbd", {}, key), ` ${text}`)));
   byId("help").onclick = () => byId<HTMLDialogElement>("keys").showModal();
-  for (const name of STIRRING) addEventListener(name, () => (awakeUntil = performance.now() + AWAKE_MS), { capture: true, passive: true });
+  for (const name of STIRRING) addEventListener(name, () => (stirred = true), { capture: true, passive: true });
   document.addEventListener("keydown", (event) => press(event) && event.preventDefault());
   takeFiles();
   tell("Loading …");

@@ -4,20 +4,10 @@ import { Bodies, type Painter } from "./bodies.js";
 import { Drawn, type Lists } from "./engine.js";
 import { FIXED } from "./paint.js";
 import { OVERLAYS, Overlays, type Pin } from "./overlays.js";
+import { SOFTWARE } from "./software.js";
 import type { Stage } from "./stage.js";
 
 const LISTS: Record<string, number> = { contacts: Drawn.contacts, joints: Drawn.joints, bounds: Drawn.bounds, masses: Drawn.masses };
-
-/** Whether a processor draws in place of a graphics card: then the picture is a plainer one. */
-function drawsInSoftware(): boolean {
-  const context = document.createElement("canvas").getContext("webgl2");
-  const names = context?.getExtension("WEBGL_debug_renderer_info");
-  const name = names ? String(context?.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
-  context?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software/i.test(name);
-}
-
-const SOFTWARE = drawsInSoftware();
 
 /** A world in its own light. */
 export class Diorama {
