@@ -9,7 +9,6 @@
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/convex/solid.h"
 #include "core/math/block_float.h"
-#include "core/math/rotation_log.h"
 #include "core/world/commands/command_checks.h"
 #include "core/world/commands/joint_checks.h"
 #include "core/world/commands/joint_progress.h"
@@ -31,18 +30,17 @@ void check_sizes(RefusalFinder& find, const Shape& shape) {
   for (int i = 0; i < 3; ++i) {
     if (i < used) {
       const std::string_view name = traits->size_names[static_cast<std::size_t>(i)];
-      find.within("shape." + std::string(name), shape.size[i], k_min_shape_size, k_max_shape_size,
-                  "m");
+      find.within(joined({"shape.", name}), shape.size[i], k_min_shape_size, k_max_shape_size, "m");
     } else {
       const std::string_view axis = std::string_view("xyz").substr(static_cast<std::size_t>(i), 1);
-      find.require(shape.size[i] == Length{}, "shape.size." + std::string(axis),
+      find.require(shape.size[i] == Length{}, joined({"shape.size.", axis}),
                    RefusalFinder::text(shape.size[i], "m"),
-                   "0 m for a " + std::string(to_string(shape.kind)));
+                   joined({"0 m for a ", to_string(shape.kind)}));
     }
   }
   if (traits == nullptr || !has_fourth_size(shape.kind)) return;
   const Length most = k_max_shape_size - max(max(shape.size.x, shape.size.y), shape.size.z);
-  find.within("shape." + std::string(traits->size_names[3]), shape.fourth_size(), k_min_shape_size,
+  find.within(joined({"shape.", traits->size_names[3]}), shape.fourth_size(), k_min_shape_size,
               most, "m");
 }
 
@@ -51,28 +49,28 @@ void check_sizes(RefusalFinder& find, const Shape& shape) {
 void check(RefusalFinder& find, const Shape& shape, const Asset* asset) {
   find.known("shape.kind", shape.kind, ShapeKind::sphere, k_last_shape_kind);
   if (find.done()) return;
-  const std::string kind(to_string(shape.kind));
+  const std::string_view kind = to_string(shape.kind);
   const std::string id = hexadecimal(shape.asset.value);
   check_sizes(find, shape);
   if (!is_asset(shape.kind)) {
-    find.require(shape.asset_id().is_null(), "shape.asset", id, "null for a " + kind);
+    find.require(shape.asset_id().is_null(), "shape.asset", id, joined({"null for a ", kind}));
     return;
   }
   find.require(!shape.asset.is_null(), "shape.asset", id,
-               "an asset's id for a " + kind + ": use Asset::shape");
+               joined({"an asset's id for a ", kind, ": use Asset::shape"}));
   find.require(asset != nullptr, "shape.asset", id, "in the AssetSet that the world was made with");
   if (asset != nullptr) {
     find.require(asset->kind() == shape.kind, "shape.kind", kind,
-                 std::string(to_string(asset->kind())) + ", as the asset is");
+                 joined({to_string(asset->kind()), ", as the asset is"}));
   }
 }
 
 void check_moments(RefusalFinder& find, std::string_view field, const MassData& data,
                    int scale_exponent) {
   if (find.done() || has_valid_mass_data(data, scale_exponent)) return;
-  find.require(false, field, to_decimal(data.inertia) + " kg·m²",
-               "all 0, or each above 0 and at most the mass times (2^" +
-                   std::to_string(scale_exponent) + " m)²");
+  find.require(false, field, joined({to_decimal(data.inertia), " kg·m²"}),
+               joined({"all 0, or each above 0 and at most the mass times (2^",
+                       std::to_string(scale_exponent), " m)²"}));
 }
 
 namespace {
@@ -80,7 +78,7 @@ namespace {
 void check_mass(RefusalFinder& find, const BodyDef& def, const geometry::AssetGeometry* asset) {
   if (!has_solid(def.shape, asset)) {
     find.require(def.motion == MotionType::static_body, "motion", to_string(def.motion),
-                 "static for a " + std::string(to_string(def.shape.kind)) + " without volume");
+                 joined({"static for a ", to_string(def.shape.kind), " without volume"}));
     return;
   }
   if (def.motion != MotionType::dynamic) return;
@@ -116,24 +114,23 @@ void check_own_fields(RefusalFinder& find, const BodyDef& def) {
 }
 
 template <class Axis>
-void check_axis_settings(RefusalFinder& find, const std::string& name, const Axis& axis,
-                         std::string_view unit, std::string_view effort_unit) {
-  find.known(name + "mode", axis.mode, AxisMode::locked, AxisMode::limited);
-  find.within(name + "hertz", axis.hertz, Number{}, Number::from_integer(1000), "Hz");
-  find.within(name + "damping_ratio", axis.damping_ratio, Number{}, Number::from_integer(100));
+void check_axis_settings(RefusalFinder& find, const Axis& axis, std::string_view unit,
+                         std::string_view effort_unit) {
+  find.known("mode", axis.mode, AxisMode::locked, AxisMode::limited);
+  find.within("hertz", axis.hertz, Number{}, Number::from_integer(1000), "Hz");
+  find.within("damping_ratio", axis.damping_ratio, Number{}, Number::from_integer(100));
   using Effort = decltype(axis.max_effort);
-  find.within(name + "max_effort", axis.max_effort, Effort{}, Effort::from_raw(k_effort_limit),
+  find.within("max_effort", axis.max_effort, Effort{}, Effort::from_raw(k_effort_limit),
               effort_unit);
   if (axis.lower > axis.upper) {
-    find.require(false, name + "lower", RefusalFinder::text(axis.lower, unit),
-                 "at most the upper limit, " + RefusalFinder::text(axis.upper, unit));
+    find.require(false, "lower", RefusalFinder::text(axis.lower, unit),
+                 joined({"at most the upper limit, ", RefusalFinder::text(axis.upper, unit)}));
   }
 }
 
 // A joint whose axes were never set as its kind asks.
 void check_made_by_of(RefusalFinder& find, const JointDef& def) {
-  find.require(holds_something(def), "kind",
-               std::string(to_string(def.kind)) + " with all axes free",
+  find.require(holds_something(def), "kind", joined({to_string(def.kind), " with all axes free"}),
                "made by JointDef::of(kind, a, b), which locks the axes of the kind");
 }
 
@@ -151,9 +148,9 @@ void check_ratio(RefusalFinder& find, const JointDef& def) {
 void check_anchor(RefusalFinder& find, std::string_view field, const BodyRecord& body,
                   const JointFrame& frame, const Vec3<Length>& anchor) {
   if (is_anchor(body, anchor)) return;
-  find.require(
-      false, field, to_decimal(frame.position) + " m",
-      "within " + to_decimal(anchor_reach(body)) + " m of the centre of mass along each axis");
+  find.require(false, field, joined({to_decimal(frame.position), " m"}),
+               joined({"within ", to_decimal(anchor_reach(body)),
+                       " m of the centre of mass along each axis"}));
 }
 
 void check_forces(RefusalFinder& find, const JointDef& def) {
@@ -164,12 +161,6 @@ void check_forces(RefusalFinder& find, const JointDef& def) {
 }
 
 }  // namespace
-
-void RefusalFinder::direction(std::string_view field, const Quat& q) {
-  require(has_direction(q), field,
-          '(' + text(q.x) + ", " + text(q.y) + ", " + text(q.z) + ", " + text(q.w) + ')',
-          "a quaternion of a norm well above 0");
-}
 
 void check(RefusalFinder& find, const Surface& surface) {
   const CombineRule first = CombineRule::standard, last = CombineRule::maximum;
@@ -214,29 +205,31 @@ void check(RefusalFinder& find, const Fluid& fluid) {
   find.within("fluid.flow", fluid.flow, k_speed_limit, "m/s");
 }
 
-void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const LinearAxis& settings) {
-  const std::string name = "linear[" + std::to_string(axis) + "].";
-  check_axis_settings(find, name, settings, "m", "N");
+void check_axis(RefusalFinder& joint, JointKind kind, std::size_t axis,
+                const LinearAxis& settings) {
+  RefusalFinder find = joint.part(joined({"linear[", std::to_string(axis), "]."}));
+  check_axis_settings(find, settings, "m", "N");
   if (kind == JointKind::distance && axis == 0)
-    find.at_least(name + "lower", settings.lower, Length{}, "m");
-  if (kind != JointKind::path) return;
-  const bool is_locked = settings.mode == AxisMode::locked;
-  const bool is_driven = settings.hertz > Number{} || settings.max_effort > Force{};
-  find.require(axis == 0 ? !is_locked : is_locked && !is_driven, name + "mode",
-               to_string(settings.mode),
-               axis == 0 ? "free or limited: along the path" : "locked, without a drive: a path");
+    find.at_least("lower", settings.lower, Length{}, "m");
+  if (kind == JointKind::path) {
+    const bool is_locked = settings.mode == AxisMode::locked;
+    const bool is_driven = settings.hertz > Number{} || settings.max_effort > Force{};
+    find.require(axis == 0 ? !is_locked : is_locked && !is_driven, "mode", to_string(settings.mode),
+                 axis == 0 ? "free or limited: along the path" : "locked, without a drive: a path");
+  }
+  joint.adopt(find.take());
 }
 
-void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis,
+void check_axis(RefusalFinder& joint, JointKind kind, std::size_t axis,
                 const AngularAxis& settings) {
-  const std::string name = "angular[" + std::to_string(axis) + "].";
+  RefusalFinder find = joint.part(joined({"angular[", std::to_string(axis), "]."}));
   const Angle pi = Angle::from_raw(k_pi);
-  check_axis_settings(find, name, settings, "rad", "N·m");
-  find.within(name + "lower", settings.lower, -pi, pi, "rad");
-  find.within(name + "upper", settings.upper, -pi, pi, "rad");
-  find.within(name + "target", settings.target, -pi, pi, "rad");
-  if (kind == JointKind::ball && axis == 1)
-    find.at_least(name + "upper", settings.upper, Angle{}, "rad");
+  check_axis_settings(find, settings, "rad", "N·m");
+  find.within("lower", settings.lower, -pi, pi, "rad");
+  find.within("upper", settings.upper, -pi, pi, "rad");
+  find.within("target", settings.target, -pi, pi, "rad");
+  if (kind == JointKind::ball && axis == 1) find.at_least("upper", settings.upper, Angle{}, "rad");
+  joint.adopt(find.take());
 }
 
 void check_turning(RefusalFinder& find, const Vec3<AngularVelocity>& turning, int exponent) {
@@ -249,7 +242,7 @@ void check_turning(RefusalFinder& find, const Vec3<AngularVelocity>& turning, in
 
 std::string Refusal::to_line() const {
   if (field.empty()) return "nothing is wrong";
-  return field + ": " + value + ", " + rule;
+  return joined({field, ": ", value, ", ", rule});
 }
 
 Refusal World::explain(const WorldDef& def) {
@@ -286,7 +279,7 @@ Refusal World::explain(const BodyDef& def) const {
   check_turning(find, def.angular_velocity, properties_of(def.shape, asset).scale_exponent);
   const std::uint32_t capacity = impl_->def.body_capacity;
   find.require(body_count() < capacity, "count", std::to_string(body_count()),
-               "below WorldDef::body_capacity, " + std::to_string(capacity));
+               joined({"below WorldDef::body_capacity, ", std::to_string(capacity)}));
   return find.take();
 }
 
@@ -321,12 +314,13 @@ Refusal World::explain(const JointDef& def) const {
   check_anchor(find, "frame_a.position", *a, def.frame_a, joint.anchor_a);
   check_anchor(find, "frame_b.position", *b, def.frame_b, joint.anchor_b);
   find.require(!joint.is(JointKind::pulley) || find.done() || begin_joint(*impl_, joint),
-               "ground_a", to_decimal(def.ground_a) + " m",
+               "ground_a", joined({to_decimal(def.ground_a), " m"}),
                "where each rope, and both by the ratio, are 1000 m long at most");
   find.require(!joint.is(JointKind::path) || find.done() || begin_joint(*impl_, joint), "path",
                hexadecimal(def.path.value), "the id of a path in the AssetSet of the world");
-  find.require(joint_count() < impl_->def.joint_capacity, "count", std::to_string(joint_count()),
-               "below WorldDef::joint_capacity, " + std::to_string(impl_->def.joint_capacity));
+  const std::uint32_t capacity = impl_->def.joint_capacity;
+  find.require(joint_count() < capacity, "count", std::to_string(joint_count()),
+               joined({"below WorldDef::joint_capacity, ", std::to_string(capacity)}));
   return find.take();
 }
 

@@ -64,7 +64,7 @@ class CommandExplainer::Subjects {
 
   void require_motion(const BodyRecord& record, bool good, std::string_view wanted) {
     find.require(good, "body",
-                 "a " + std::string(to_string(static_cast<MotionType>(record.motion))) + " body",
+                 joined({"a ", to_string(static_cast<MotionType>(record.motion)), " body"}),
                  wanted);
   }
 
@@ -123,7 +123,7 @@ class CommandExplainer::Motion {
     Vec3<Velocity> velocity, spin;
     const bool near = motion_to(*record, target_of(c), on_.impl.def.tick_rate, velocity, spin);
     on_.find.require(near, "position",
-                     "from " + to_decimal(now) + " to " + to_decimal(c.position) + " m",
+                     joined({"from ", to_decimal(now), " to ", to_decimal(c.position), " m"}),
                      "so near, in place and orientation, that 500 m/s reach it in one tick");
   }
 
@@ -152,9 +152,9 @@ class CommandExplainer::Motion {
     const bool near = gain_of(on_.impl, c.body, {{}, {}, &c.point, c.frame}, unused) == Status::ok;
     const BodyRecord& record = *on_.impl.find(c.body);
     const Length radius = properties_of(record.shape(), on_.impl.cache.asset(c.body.index)).radius;
-    on_.find.require(near, "point", to_decimal(c.point) + " m",
-                     "within twice the body's radius, " + to_decimal(radius) +
-                         " m, of its centre of mass along each axis");
+    on_.find.require(near, "point", joined({to_decimal(c.point), " m"}),
+                     joined({"within twice the body's radius, ", to_decimal(radius),
+                             " m, of its centre of mass along each axis"}));
     return !on_.find.done();
   }
 
@@ -211,9 +211,9 @@ class CommandExplainer::Properties {
     on_.require_motion(*record, record->is_dynamic(), "dynamic");
     on_.find.require(is_valid(*c.def), "def", "a number out of its range",
                      "within the ranges of lockstone/vehicle.h");
-    on_.find.require(
-        can_be_chassis(on_.impl, c.chassis.index), "def", "one more vehicle",
-        "one of WorldDef::vehicle_capacity, " + std::to_string(on_.impl.def.vehicle_capacity));
+    on_.find.require(can_be_chassis(on_.impl, c.chassis.index), "def", "one more vehicle",
+                     joined({"one of WorldDef::vehicle_capacity, ",
+                             std::to_string(on_.impl.def.vehicle_capacity)}));
   }
   void of(const DriveVehicle& c) {
     if (on_.body(c.chassis) == nullptr) return;
@@ -228,8 +228,8 @@ class CommandExplainer::Properties {
     require_valid(c);
     if (on_.find.done()) return;
     on_.find.require(has_room_for(on_.impl, c), "body", "more changed tiles than there is room for",
-                     "one whose change fits WorldDef::terrain_tile_capacity, " +
-                         std::to_string(on_.impl.def.terrain_tile_capacity));
+                     joined({"one whose change fits WorldDef::terrain_tile_capacity, ",
+                             std::to_string(on_.impl.def.terrain_tile_capacity)}));
   }
   void of(const SetMeshGroup& c) {
     if (on_.body(c.body) == nullptr) return;
@@ -256,14 +256,14 @@ class CommandExplainer::Properties {
     const bool removes = c.rule == PairRule{};
     on_.find.require(removes || has_room_for_rule(on_.impl, rule_key(c.a.index, c.b.index)), "rule",
                      "one more than there is room for",
-                     "one of at most " + std::to_string(k_max_pair_rules));
+                     joined({"one of at most ", std::to_string(k_max_pair_rules)}));
   }
   void of(const SetSurfaceRule& c) {
     if (!c.surface) return;
     check(on_.find, *c.surface);
     on_.find.require(has_room_for_surface_rule(on_.impl, rule_key(c.tag_a, c.tag_b)), "surface",
                      "one more than there is room for",
-                     "one of at most " + std::to_string(k_max_surface_rules));
+                     joined({"one of at most ", std::to_string(k_max_surface_rules)}));
   }
   void of(const SetGravity& c) {
     on_.find.within("gravity", c.gravity, Acceleration::from_integer(1000), "m/s²");
@@ -280,7 +280,7 @@ class CommandExplainer::Properties {
     require(HeightsFault::columns, "columns", c.columns, "1 or more, within the grid from column");
     require(HeightsFault::rows, "rows", c.rows, "1 or more, within the grid from row");
     require(HeightsFault::heights, "heights", c.heights.size(),
-            "none, or columns × rows (" + samples + ") heights of ±512 m");
+            joined({"none, or columns × rows (", samples, ") heights of ±512 m"}));
     require(HeightsFault::holes, "holes", c.holes.size(),
             "none, or as many as there are cells between the samples");
     require(HeightsFault::cell_surfaces, "cell_surfaces", c.cell_surfaces.size(),

@@ -32,8 +32,8 @@ bool has_joint(JointKind kind) {
 }
 
 void check_place(RefusalFinder& find, std::string_view name, const Transform& place) {
-  find.within(std::string(name) + ".position", place.position, k_most_place, "m");
-  find.direction(std::string(name) + ".orientation", place.orientation);
+  find.within(joined({name, ".position"}), place.position, k_most_place, "m");
+  find.direction(joined({name, ".orientation"}), place.orientation);
 }
 
 void check_joint(RefusalFinder& find, const Bone& bone) {
@@ -47,7 +47,7 @@ void check_joint(RefusalFinder& find, const Bone& bone) {
 
 Refusal check_bone(const RagdollDef& def, std::size_t i) {
   const Bone& bone = def.bones[i];
-  RefusalFinder find("bones[" + std::to_string(i) + "].");
+  RefusalFinder find(joined({"bones[", std::to_string(i), "]."}));
   const bool is_root = i == 0;
   find.require(is_root ? bone.parent == k_no_bone : bone.parent < i, "parent",
                bone.parent == k_no_bone ? "k_no_bone" : std::to_string(bone.parent),

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
+#include <lockstone/asset.h>
 #include <lockstone/body.h>
 #include <lockstone/decimal.h>
 #include <lockstone/fluid.h>
@@ -14,6 +17,10 @@
 #include <lockstone/rules.h>
 
 namespace lockstone {
+
+/// The pieces of a text, one after another. Only refusals make texts, so these functions are
+/// compiled for their size: each is one call where it is used.
+[[nodiscard]] std::string joined(std::initializer_list<std::string_view> pieces);
 
 class RefusalFinder {
  public:
@@ -25,70 +32,96 @@ class RefusalFinder {
   void adopt(Refusal found) {
     if (!done()) found_ = std::move(found);
   }
+  /// For the fields of a part, whose names begin with `name` behind the prefix.
+  [[nodiscard]] RefusalFinder part(std::string_view name) const {
+    return RefusalFinder(joined({prefix_, name}));
+  }
 
   /// Notes the field unless it is good, or another was noted before.
   void require(bool good, std::string_view field, std::string_view value, std::string_view rule) {
-    if (good || done()) return;
-    found_ = {prefix_ + std::string(field), std::string(value), "must be " + std::string(rule)};
+    if (!good && !done()) note(field, value, rule);
   }
 
   /// low ≤ value ≤ high.
   template <class T>
   void within(std::string_view field, T value, T low, std::type_identity_t<T> high,
               std::string_view unit = {}) {
-    if (done() || (value >= low && value <= high)) return;
-    require(false, field, text(value, unit), text(low) + " … " + text(high, unit));
+    if (value < low || value > high)
+      note_range(field, raw_of(value), raw_of(low), raw_of(high), {k_bits<T>, unit});
   }
 
   template <class T>
   void within(std::string_view field, const Vec3<T>& v, std::type_identity_t<T> limit,
               std::string_view unit) {
     constexpr std::string_view k_axes[] = {".x", ".y", ".z"};
-    for (int i = 0; i < 3 && !done(); ++i)
-      within(std::string(field) + std::string(k_axes[i]), v[i], -limit, limit, unit);
+    for (int i = 0; i < 3; ++i)
+      if (v[i] < -limit || v[i] > limit)
+        note_range(joined({field, k_axes[i]}), v[i].raw, -limit.raw, limit.raw, {k_bits<T>, unit});
   }
 
   template <class T>
   void at_least(std::string_view field, T value, T low, std::string_view unit) {
-    if (done() || value >= low) return;
-    require(false, field, text(value, unit), "at least " + text(low, unit));
+    if (value < low) note_least(field, value.raw, low.raw, {k_bits<T>, unit});
   }
 
   template <class T>
   void above_zero(std::string_view field, T value, std::string_view unit) {
-    if (done() || value > T{}) return;
-    require(false, field, text(value, unit), "above 0" + with_space(unit));
+    if (value <= T{}) note_positive(field, value.raw, {k_bits<T>, unit});
   }
 
   /// One of the enumerators first … last.
   template <class E>
   requires std::is_enum_v<E>
   void known(std::string_view field, E value, E first, E last) {
-    if (done() || (value >= first && value <= last)) return;
-    require(false, field, std::to_string(static_cast<int>(value)),
-            std::string(to_string(first)) + " … " + std::string(to_string(last)) + " (" +
-                std::to_string(static_cast<int>(first)) + " … " +
-                std::to_string(static_cast<int>(last)) + ')');
+    if (value < first || value > last)
+      note_unknown(field, static_cast<int>(value), {to_string(first), static_cast<int>(first)},
+                   {to_string(last), static_cast<int>(last)});
   }
 
   void direction(std::string_view field, const Quat& q);
 
-  [[nodiscard]] static std::string handle_text(std::uint32_t index, std::uint32_t generation) {
-    return '{' + std::to_string(index) + ", " + std::to_string(generation) + '}';
-  }
+  [[nodiscard]] static std::string handle_text(std::uint32_t index, std::uint32_t generation);
 
   template <class T>
   [[nodiscard]] static std::string text(T value, std::string_view unit = {}) {
-    if constexpr (std::integral<T>)
-      return std::to_string(value) + with_space(unit);
-    else
-      return to_decimal(value) + with_space(unit);
+    return number_text(raw_of(value), {k_bits<T>, unit});
   }
 
  private:
-  [[nodiscard]] static std::string with_space(std::string_view unit) {
-    return unit.empty() ? std::string() : ' ' + std::string(unit);
+  /// How a raw number is written.
+  struct Format {
+    int bits;  // of the fraction
+    std::string_view unit;
+  };
+  struct Named {
+    std::string_view name;
+    int number;
+  };
+
+  template <class T>
+  static constexpr std::int64_t raw_of(T value) {
+    if constexpr (std::integral<T>)
+      return static_cast<std::int64_t>(value);
+    else
+      return value.raw;
   }
+  template <class T>
+  static constexpr int bits_of() {
+    if constexpr (std::integral<T>)
+      return 0;
+    else
+      return T::frac_bits;
+  }
+  template <class T>
+  static constexpr int k_bits = bits_of<T>();
+
+  [[nodiscard]] static std::string number_text(std::int64_t raw, Format format);
+  void note(std::string_view field, std::string_view value, std::string_view rule);
+  void note_range(std::string_view field, std::int64_t value, std::int64_t low, std::int64_t high,
+                  Format format);
+  void note_least(std::string_view field, std::int64_t value, std::int64_t low, Format format);
+  void note_positive(std::string_view field, std::int64_t value, Format format);
+  void note_unknown(std::string_view field, int value, Named first, Named last);
 
   std::string prefix_;
   Refusal found_;
@@ -107,7 +140,8 @@ void check_moments(RefusalFinder& find, std::string_view field, const MassData& 
                    int scale_exponent);
 /// |ω · 2^exponent| ≤ 500 m/s on the surface.
 void check_turning(RefusalFinder& find, const Vec3<AngularVelocity>& turning, int exponent);
-void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const LinearAxis& settings);
-void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const AngularAxis& settings);
+void check_axis(RefusalFinder& joint, JointKind kind, std::size_t axis, const LinearAxis& settings);
+void check_axis(RefusalFinder& joint, JointKind kind, std::size_t axis,
+                const AngularAxis& settings);
 
 }  // namespace lockstone

@@ -138,7 +138,7 @@ lks_status lks_set_allocator(lks_allocate_function allocate, lks_release_functio
                              void* user) {
   return lockstone::c::call([&] {
     if ((allocate == nullptr) != (release == nullptr))
-      throw lockstone::c::Failure{LKS_NULL_ARGUMENT, "one of the two functions is null"};
+      lockstone::c::throw_status(LKS_NULL_ARGUMENT, "one of the two functions is null");
     if (allocate == nullptr) {
       current.store(&k_malloc, std::memory_order_release);
       return;
@@ -153,7 +153,7 @@ lks_status lks_set_allocator(lks_allocate_function allocate, lks_release_functio
 
 lks_status lks_set_allocator(lks_allocate_function, lks_release_function, void*) {
   return lockstone::c::call([] {
-    throw lockstone::c::Failure{LKS_UNSUPPORTED, "this build takes memory from its C++ runtime"};
+    lockstone::c::throw_status(LKS_UNSUPPORTED, "this build takes memory from its C++ runtime");
   });
 }
 

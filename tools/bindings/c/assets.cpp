@@ -1,4 +1,5 @@
 // Sets of assets.
+#include <algorithm>
 #include <memory>
 
 #include <lockstone/fit.h>
@@ -16,7 +17,7 @@ using namespace lockstone;
 using namespace lockstone::c;
 
 std::vector<Vec3<Length>> points_of(const lks_length3* points, std::size_t count) {
-  if (count > k_max_hull_points) throw invalid("count", "must be at most 65536");
+  if (count > k_max_hull_points) throw_invalid("count", "must be at most 65536");
   array(points, count, "points");
   std::vector<Vec3<Length>> result;
   result.reserve(count);
@@ -26,7 +27,7 @@ std::vector<Vec3<Length>> points_of(const lks_length3* points, std::size_t count
 }
 
 std::vector<PathPoint> path_points(const lks_path_point* points, size_t count) {
-  if (count > k_max_path_points) throw invalid("count", "must be at most 4096");
+  if (count > k_max_path_points) throw_invalid("count", "must be at most 4096");
   const lks_path_point* raw = array(points, count, "points");
   std::vector<PathPoint> list(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -37,7 +38,7 @@ std::vector<PathPoint> path_points(const lks_path_point* points, size_t count) {
 void add_path(lks_assets& assets, std::span<const PathPoint> points, std::span<const Angle> banks,
               bool closed, uint64_t& name) {
   const PathResult result = Path::build(points, banks, closed);
-  if (!result.ok()) throw invalid("points", to_string(result.fault));
+  if (!result.ok()) throw_invalid("points", to_string(result.fault));
   assets.list.push_back(result.path);
   name = result.path->id().value;
 }
@@ -47,22 +48,26 @@ Transform unchecked_pose(const lks_pose& pose) {
   return {vec<Position>(pose.position), quat_of(pose.orientation)};
 }
 
+const Asset& asset_of(const lks_assets& assets, AssetId id) {
+  const auto found =
+      std::ranges::find(assets.list, id, [](const AssetPtr& one) { return one->id(); });
+  if (found == assets.list.end()) throw_status(LKS_NOT_FOUND, "the set has no such asset");
+  return **found;
+}
+
 // A shape with its asset of the set, if it names one.
 ShapeAt shape_at(const lks_assets* assets, const lks_placed_shape* raw, std::string_view field) {
   const lks_placed_shape& from = required(raw, field);
   ShapeAt at{shape_of(from.shape, field), unchecked_pose(from.pose), nullptr};
   if (!is_asset(at.shape.kind)) return at;
-  if (assets != nullptr) {
-    for (const AssetPtr& asset : assets->list)
-      if (asset->id() == at.shape.asset) at.asset = asset.get();
-  }
-  if (at.asset == nullptr) throw Failure{LKS_NOT_FOUND, "the set has no such asset"};
+  if (assets == nullptr) throw_status(LKS_NOT_FOUND, "the set has no such asset");
+  at.asset = &asset_of(*assets, at.shape.asset);
   return at;
 }
 
 template <class Found>
 const Found& found_in(const Result<Found>& result) {
-  if (!result) throw invalid("shapes", "a size, a place, a length or the pair is out of range");
+  if (!result) throw_invalid("shapes", "a size, a place, a length or the pair is out of range");
   return result.value();
 }
 
@@ -125,7 +130,7 @@ lks_status lks_fit(uint32_t kind, const lks_length3* points, size_t count, lks_s
     if (kind == LKS_SPHERE) fitted = fit_sphere(list);
     if (kind == LKS_BOX) fitted = fit_box(list);
     if (kind == LKS_CAPSULE) fitted = fit_capsule(list);
-    if (!fitted) throw invalid("points", "need a sphere, box or capsule of at most 512 m");
+    if (!fitted) throw_invalid("points", "need a sphere, box or capsule of at most 512 m");
     *shape = raw_of(fitted.value().shape);
     *pose =
         raw_of(Transform{rounded<Position>(fitted.value().position), fitted.value().orientation});
@@ -155,7 +160,7 @@ lks_status lks_assets_add_rounded_hull(lks_assets* assets, const lks_length3* po
     required(out, "out");
     const HullOptions options = HullOptions::rounded(Length::from_raw(radius), max_vertices);
     HullResult result = Hull::build(points_of(points, count), options);
-    if (!result.ok()) throw invalid("points", to_string(result.fault));
+    if (!result.ok()) throw_invalid("points", to_string(result.fault));
     assets->list.push_back(result.hull);
     *out = result.hull->id().value;
   });

@@ -25,7 +25,7 @@ static_assert(LKS_INERTIA_BITS == MomentOfInertia::frac_bits);
 static_assert(LKS_ANGLE_BITS == Angle::frac_bits && LKS_DENSITY_BITS == Density::frac_bits);
 
 void check_fraction_bits(std::int32_t bits, int most) {
-  if (bits < 0 || bits > most) throw invalid("bits", "must be 0 … " + std::to_string(most));
+  if (bits < 0 || bits > most) throw_invalid("bits", "must be 0 … " + std::to_string(most));
 }
 
 const char* own_name_of(lks_status status) {
@@ -75,7 +75,7 @@ uint64_t lks_canary_hash(void) {
 lks_status lks_quat_from_axis_angle(const lks_unit3* axis, lks_angle angle, lks_quat* out) {
   return call([&] {
     const auto direction = normalized(vec<Unit>(required(axis, "axis")));
-    if (direction == Vec3<Unit>{}) throw invalid("axis", "must not be zero");
+    if (direction == Vec3<Unit>{}) throw_invalid("axis", "must not be zero");
     required(out, "out") = raw_of(from_axis_angle(direction, Angle::from_raw(angle)));
   });
 }
@@ -83,9 +83,9 @@ lks_status lks_quat_from_axis_angle(const lks_unit3* axis, lks_angle angle, lks_
 lks_status lks_from_ratio(int64_t numerator, int64_t denominator, int32_t bits, int64_t* out) {
   return call([&] {
     check_fraction_bits(bits, 62);
-    if (denominator == 0) throw invalid("denominator", "must not be 0");
+    if (denominator == 0) throw_invalid("denominator", "must not be 0");
     const raw::Ratio ratio = raw::divide(numerator, denominator, bits);
-    if (!ratio.fits) throw invalid("numerator", "the quotient does not fit in 64 bits");
+    if (!ratio.fits) throw_invalid("numerator", "the quotient does not fit in 64 bits");
     required(out, "out") = ratio.value;
   });
 }
@@ -94,9 +94,9 @@ lks_status lks_from_decimal(const char* text, int32_t bits, int64_t* out) {
   return call([&] {
     check_fraction_bits(bits, 62);
     const ParsedDecimal parsed = parse_decimal_text(&required(text, "text"));
-    if (!parsed.ok) throw Failure{LKS_MALFORMED, std::string("not a decimal number: ") + text};
+    if (!parsed.ok) throw_status(LKS_MALFORMED, std::string("not a decimal number: ") + text);
     const ScaledDecimal scaled = scale_decimal(parsed.value, bits);
-    if (scaled.overflow) throw invalid("text", "the number does not fit in 64 bits");
+    if (scaled.overflow) throw_invalid("text", "the number does not fit in 64 bits");
     required(out, "out") = scaled.value;
   });
 }
@@ -107,8 +107,8 @@ lks_status lks_to_decimal(int64_t raw, int32_t bits, char* out, size_t capacity)
     required(out, "out");
     const std::string text = format_decimal(raw, bits);
     if (text.size() >= capacity) {
-      throw Failure{LKS_BUFFER_TOO_SMALL,
-                    "the number needs " + std::to_string(text.size() + 1) + " bytes"};
+      throw_status(LKS_BUFFER_TOO_SMALL,
+                   "the number needs " + std::to_string(text.size() + 1) + " bytes");
     }
     write_text(text, out, capacity);
   });

@@ -114,7 +114,7 @@ lks_status lks_create_body(lks_world* world, const lks_body_def* def, lks_body* 
     required(out, "out");
     const BodyDef body = body_def_of(def);
     const Result<BodyHandle> made = target.create_body(body);
-    if (!made.ok()) throw failure(made.status(), target.explain(body));
+    if (!made.ok()) throw_failure(made.status(), target.explain(body));
     *out = id_of(made.value());
   });
 }
@@ -123,7 +123,7 @@ lks_status lks_set_name(lks_world* world, lks_body body, const char* name) {
   return call([&] {
     const Status status =
         write(world).set_name(handle_of<BodyHandle>(body), &required(name, "name"));
-    if (status != Status::ok) throw failure(status);
+    if (status != Status::ok) throw_failure(status);
   });
 }
 

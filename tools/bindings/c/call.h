@@ -23,8 +23,15 @@ struct Failure {
   std::string message;
 };
 
-[[nodiscard]] Failure failure(Status status, const Refusal& refusal = {});
-[[nodiscard]] Failure invalid(std::string_view field, std::string_view rule);
+/// They throw a Failure; functions, because many places do.
+[[noreturn]] void throw_status(lks_status status, std::string_view message);
+[[noreturn]] void throw_failure(Status status, const Refusal& refusal = {});
+[[noreturn]] void throw_invalid(std::string_view field, std::string_view rule);
+[[noreturn]] void throw_null(std::string_view name);
+[[noreturn]] void throw_wrong_size(std::string_view name, std::size_t size, std::size_t least,
+                                   std::size_t most);
+[[noreturn]] void throw_number(std::string_view field, std::uint32_t number,
+                               std::string_view fault);
 
 /// Keeps the message for lks_last_error, cut to its room between two characters.
 lks_status remember(lks_status status, std::string_view message) noexcept;
@@ -39,13 +46,6 @@ lks_status call(Body&& body) noexcept {
   return call_guarded([](void* of) { (*static_cast<std::remove_reference_t<Body>*>(of))(); },
                       &body);
 }
-
-/// They throw; functions, because many places do.
-[[noreturn]] void throw_null(std::string_view name);
-[[noreturn]] void throw_wrong_size(std::string_view name, std::size_t size, std::size_t least,
-                                   std::size_t most);
-[[noreturn]] void throw_number(std::string_view field, std::uint32_t number,
-                               std::string_view fault);
 
 /// The object that the pointer points to; throws for null.
 template <class T>
@@ -64,7 +64,7 @@ T* array(T* pointer, std::size_t count, std::string_view name) {
 /// The value of a result; throws its status.
 template <class T>
 T value_of(Result<T>&& result) {
-  if (!result.ok()) throw failure(result.status());
+  if (!result.ok()) throw_failure(result.status());
   return std::move(result).value();
 }
 

@@ -12,13 +12,13 @@ namespace {
 
 net::MessageTransport& carried(const lks_transport* transport) {
   net::MessageTransport* found = required(transport, "transport").carrier->carried;
-  if (found == nullptr) throw invalid("transport", "is not carried by the program");
+  if (found == nullptr) throw_invalid("transport", "is not carried by the program");
   return *found;
 }
 
 void encrypt(Carrier& carrier, const char* text) {
   if (!net::security_available())
-    throw Failure{LKS_UNSUPPORTED, "the library was built without libsodium"};
+    throw_status(LKS_UNSUPPORTED, "the library was built without libsodium");
   const net::ConnectToken token = value_of(net::ConnectToken::from_text(text));
   carrier.random = std::make_unique<net::SystemRandom>();
   carrier.secure = value_of(net::SecureTransport::join(*carrier.carried, token, *carrier.random));
@@ -54,7 +54,7 @@ lks_status lks_carried_opened(lks_transport* transport) {
 lks_status lks_carried_receive(lks_transport* transport, const void* message, size_t bytes) {
   return call([&] {
     if (!carried(transport).receive(bytes_of(message, bytes, "message")))
-      throw Failure{LKS_MALFORMED, "the connection has ended: close its WebSocket"};
+      throw_status(LKS_MALFORMED, "the connection has ended: close its WebSocket");
   });
 }
 

@@ -169,7 +169,7 @@ const ClientBox& read(const lks_client* client) {
 
 ClientBox& write(lks_client* client) {
   ClientBox& box = *required(client, "client").box;
-  if (box.updating) throw Failure{LKS_READ_ONLY, "the client is being updated"};
+  if (box.updating) throw_status(LKS_READ_ONLY, "the client is being updated");
   return box;
 }
 
@@ -218,7 +218,7 @@ lks_status lks_client_create(const lks_client_def* def, const lks_game* game,
     parts.observer = box.get();
     parts.predictor = box.get();
     net::Client::Created created = net::Client::create(config, std::move(parts));
-    if (created.client == nullptr) throw invalid("def", to_string(created.error));
+    if (created.client == nullptr) throw_invalid("def", to_string(created.error));
     box->client = std::move(created.client);
     *out = new lks_client{std::move(box)};
   });
@@ -231,7 +231,7 @@ void lks_client_destroy(lks_client* client) {
 lks_status lks_client_set_input(lks_client* client, const void* input, size_t bytes) {
   return call([&] {
     ClientBox& box = write(client);
-    if (bytes > k_max_input_bytes) throw invalid("bytes", "must be at most 64");
+    if (bytes > k_max_input_bytes) throw_invalid("bytes", "must be at most 64");
     const ByteView given = bytes_of(input, bytes, "input");
     box.input.fill(std::byte{0});
     std::ranges::copy(given, box.input.begin());
@@ -257,7 +257,7 @@ lks_status lks_client_on_predict(lks_client* client, lks_predict_function predic
 lks_status lks_client_update(lks_client* client, int64_t now_us) {
   return call([&] {
     ClientBox& box = write(client);
-    if (now_us < 0) throw invalid("now_us", "must not be negative");
+    if (now_us < 0) throw_invalid("now_us", "must not be negative");
     box.events.clear();
     const Updating during(box.updating);
     box.client->update(now_us);
@@ -284,7 +284,7 @@ lks_status lks_client_send_command(lks_client* client, const void* bytes, size_t
   return call([&] {
     const ByteView command = bytes_of(bytes, count, "bytes");
     const Result<std::uint64_t> sent = write(client).client->send_command(command);
-    if (!sent) throw failure(sent.status());
+    if (!sent) throw_failure(sent.status());
     if (number != nullptr) *number = sent.value();
   });
 }
@@ -317,7 +317,7 @@ lks_status lks_client_reason(const lks_client* client, char* out, size_t capacit
 lks_status lks_client_player_name(const lks_client* client, uint32_t slot, char* out,
                                   size_t capacity) {
   return call([&] {
-    if (slot >= k_max_players) throw invalid("slot", "there is no such slot");
+    if (slot >= k_max_players) throw_invalid("slot", "there is no such slot");
     const net::Client& source = *read(client).client;
     write_text(source.player_name(static_cast<std::uint8_t>(slot)), array(out, capacity, "out"),
                capacity);
@@ -329,7 +329,7 @@ lks_status lks_client_simulation(const lks_client* client, lks_simulation** out)
     const std::shared_ptr<ClientBox>& box = required(client, "client").box;
     required(out, "out");
     Simulation* simulation = box->client->simulation();
-    if (simulation == nullptr) throw Failure{LKS_NOT_FOUND, "the match is not known yet"};
+    if (simulation == nullptr) throw_status(LKS_NOT_FOUND, "the match is not known yet");
     *out = new lks_simulation{nullptr, {box, simulation}};
   });
 }
@@ -352,7 +352,7 @@ lks_status lks_client_ask(lks_client* client, uint32_t kind, uint32_t topic, uin
 lks_status lks_client_reconnect(lks_client* client, lks_connection connection) {
   return call([&] {
     if (!write(client).client->reconnect(connection))
-      throw Failure{LKS_INCOMPATIBLE, "the client's state allows no new connection"};
+      throw_status(LKS_INCOMPATIBLE, "the client's state allows no new connection");
   });
 }
 
@@ -365,10 +365,10 @@ lks_status lks_client_record(lks_client* client, const lks_recorder_def* def, lk
     ClientBox& box = write(client);
     required(out, "out");
     const Simulation* simulation = box.client->simulation();
-    if (simulation == nullptr) throw Failure{LKS_NOT_FOUND, "the match is not known yet"};
-    if (box.log != nullptr) throw invalid("client", "is recorded already");
+    if (simulation == nullptr) throw_status(LKS_NOT_FOUND, "the match is not known yet");
+    if (box.log != nullptr) throw_invalid("client", "is recorded already");
     if (!box.keyframes && simulation->tick() > 0)
-      throw Failure{LKS_INCOMPATIBLE, "the client predicts, and has stepped ticks"};
+      throw_status(LKS_INCOMPATIBLE, "the client predicts, and has stepped ticks");
     auto match = std::make_shared<Match>();
     match->game = box.game;
     match->config = box.config;

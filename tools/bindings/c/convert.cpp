@@ -84,7 +84,7 @@ Vec3<Position> place_of(const lks_position3* place, std::string_view field) {
   const auto result = vec<Position>(required(place, field));
   for (int i = 0; i < 3; ++i) {
     if (result[i] > k_world_limit || result[i] < -k_world_limit)
-      throw invalid(field, "must be within ±1048576 m");
+      throw_invalid(field, "must be within ±1048576 m");
   }
   return result;
 }

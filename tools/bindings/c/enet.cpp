@@ -37,7 +37,7 @@ net::EnetOptions options_of(const lks_enet_def& raw, const char* address) {
 
 net::Key key_of(const void* bytes) {
   if (!net::security_available())
-    throw Failure{LKS_UNSUPPORTED, "the library was built without libsodium"};
+    throw_status(LKS_UNSUPPORTED, "the library was built without libsodium");
   net::Key key;
   std::memcpy(key.bytes.data(), bytes, key.bytes.size());
   return key;
@@ -45,7 +45,7 @@ net::Key key_of(const void* bytes) {
 
 net::EnetTransport& socket_of(const Carrier& carrier) {
   if (carrier.socket == nullptr || carrier.carried != nullptr)
-    throw invalid("transport", "is no UDP socket");
+    throw_invalid("transport", "is no UDP socket");
   return static_cast<net::EnetTransport&>(*carrier.socket);
 }
 
@@ -74,7 +74,7 @@ std::unique_ptr<net::EnetTransport> listen(const net::EnetOptions& options) {
   std::string problem;
   auto socket = net::EnetTransport::listen(options, &problem);
   if (!socket.ok()) {
-    throw Failure{static_cast<lks_status>(socket.status()), "cannot listen on " + problem};
+    throw_status(static_cast<lks_status>(socket.status()), "cannot listen on " + problem);
   }
   return std::move(socket).value();
 }
@@ -85,8 +85,8 @@ lks_connection call_server(Carrier& carrier) {
   ++carrier.next_server;
   auto connection = socket_of(carrier).connect(server.host, server.port);
   if (!connection.ok()) {
-    throw Failure{static_cast<lks_status>(connection.status()),
-                  "cannot connect to " + server.to_text()};
+    throw_status(static_cast<lks_status>(connection.status()),
+                 "cannot connect to " + server.to_text());
   }
   return connection.value();
 }
@@ -108,7 +108,7 @@ std::shared_ptr<Carrier> open_socket(const net::EnetOptions& options) {
 void encrypt_client(Carrier& carrier, const net::ConnectToken& token) {
   for (std::size_t i = 0; i < token.grant.servers.count; ++i)
     carrier.servers.push_back(token.grant.servers.entries[i].to_host_port());
-  if (carrier.servers.empty()) throw invalid("token", "names no server");
+  if (carrier.servers.empty()) throw_invalid("token", "names no server");
   carrier.random = std::make_unique<net::SystemRandom>();
   carrier.secure = value_of(net::SecureTransport::join(*carrier.socket, token, *carrier.random));
   carrier.session = carrier.secure.get();
@@ -157,7 +157,7 @@ lks_status lks_enet_join(const char* token, lks_transport** out, lks_connection*
     const net::ConnectToken shown =
         value_of(net::ConnectToken::from_text(&required(token, "token")));
     if (!net::security_available())
-      throw Failure{LKS_UNSUPPORTED, "the library was built without libsodium"};
+      throw_status(LKS_UNSUPPORTED, "the library was built without libsodium");
     net::EnetOptions options;
     options.link_key = shown.link_key;
     options.match_tag = net::make_match_tag(shown.grant.match);
@@ -171,7 +171,7 @@ lks_status lks_enet_connect_again(lks_transport* transport, lks_connection* conn
   return call([&] {
     Carrier& carrier = *required(transport, "transport").carrier;
     socket_of(carrier);
-    if (carrier.servers.empty()) throw invalid("transport", "is a server's");
+    if (carrier.servers.empty()) throw_invalid("transport", "is a server's");
     required(connection, "connection") = call_server(carrier);
   });
 }
@@ -186,7 +186,7 @@ lks_status lks_enet_port(const lks_transport* transport, uint32_t* out) {
 lks_status lks_enet_wait(lks_transport* transport, int64_t limit_us) {
   return call([&] {
     net::EnetTransport& socket = socket_of(transport);
-    if (limit_us < 0) throw invalid("limit_us", "must not be negative");
+    if (limit_us < 0) throw_invalid("limit_us", "must not be negative");
     socket.wait(std::min<std::int64_t>(limit_us, 60'000'000));
   });
 }
@@ -195,7 +195,7 @@ lks_status lks_issue_token(const void* key, uint64_t match_id, uint64_t player, 
                            uint64_t expires_unix_s, const char* address, uint32_t port, char* out,
                            size_t capacity) {
   return call([&] {
-    if (key == nullptr) throw Failure{LKS_NULL_ARGUMENT, "key is null"};
+    if (key == nullptr) throw_status(LKS_NULL_ARGUMENT, "key is null");
     required(out, "out");
     net::TokenGrant grant;
     grant.match = match_id;
@@ -207,8 +207,8 @@ lks_status lks_issue_token(const void* key, uint64_t match_id, uint64_t player, 
     net::SystemRandom random;
     const std::string text = value_of(net::issue_token(key_of(key), grant, random)).to_text();
     if (text.size() >= capacity) {
-      throw Failure{LKS_BUFFER_TOO_SMALL,
-                    "the token needs " + std::to_string(text.size() + 1) + " bytes"};
+      throw_status(LKS_BUFFER_TOO_SMALL,
+                   "the token needs " + std::to_string(text.size() + 1) + " bytes");
     }
     write_text(text, out, capacity);
   });
@@ -219,9 +219,8 @@ lks_status lks_issue_token(const void* key, uint64_t match_id, uint64_t player, 
 namespace {
 
 lks_status absent() {
-  return lockstone::c::call([] {
-    throw lockstone::c::Failure{LKS_UNSUPPORTED, "the library was built without ENet"};
-  });
+  return lockstone::c::call(
+      [] { lockstone::c::throw_status(LKS_UNSUPPORTED, "the library was built without ENet"); });
 }
 
 }  // namespace

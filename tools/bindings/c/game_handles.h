@@ -41,7 +41,7 @@ struct Carrier {
   std::unique_ptr<net::SecureTransport> secure;
   net::MessageTransport* carried = nullptr;  ///< the socket, where the program carries its messages
   net::Transport* session = nullptr;         ///< the part that a session drives
-  std::vector<net::HostPort> servers{};  ///< of a client, in the order in which to call them
+  std::vector<net::HostPort> servers{};      ///< of a client, in the order in which to call them
   std::size_t next_server = 0;
   bool in_session = false;
 };
@@ -114,7 +114,7 @@ void give_bytes(ByteView bytes, void* out, std::size_t capacity, std::size_t& co
 template <std::size_t N>
 std::string text_in(const char (&text)[N], std::string_view field) {
   const void* end = std::memchr(text, 0, N);
-  if (end == nullptr) throw invalid(field, "does not end within the structure");
+  if (end == nullptr) throw_invalid(field, "does not end within the structure");
   return text;
 }
 

@@ -24,7 +24,7 @@ FlatInputs::FlatInputs(const SimulationInfo& info, const void* inputs, std::size
     : count_(info.player_count) {
   const std::size_t expected = std::size_t{info.player_count} * info.input_bytes;
   if (bytes != expected) {
-    throw invalid("bytes", "is " + std::to_string(bytes) + "; the players' inputs have " +
+    throw_invalid("bytes", "is " + std::to_string(bytes) + "; the players' inputs have " +
                                std::to_string(expected));
   }
   const ByteView all = bytes_of(inputs, bytes, "inputs");
@@ -41,8 +41,8 @@ void give_bytes(ByteView bytes, void* out, std::size_t capacity, std::size_t& co
   array(out, capacity, "out");
   count = bytes.size();
   if (bytes.size() > capacity) {
-    throw Failure{LKS_BUFFER_TOO_SMALL,
-                  std::string(name) + " has " + std::to_string(bytes.size()) + " bytes"};
+    throw_status(LKS_BUFFER_TOO_SMALL,
+                 std::string(name) + " has " + std::to_string(bytes.size()) + " bytes");
   }
   if (!bytes.empty()) std::memcpy(out, bytes.data(), bytes.size());
 }
@@ -56,7 +56,7 @@ Simulation& read(const lks_simulation* simulation) {
 Simulation& write(lks_simulation* simulation) {
   const std::shared_ptr<Match>& match = required(simulation, "simulation").match;
   if (match == nullptr || match->in_session)
-    throw Failure{LKS_READ_ONLY, "a session steps this simulation"};
+    throw_status(LKS_READ_ONLY, "a session steps this simulation");
   return *match->simulation;
 }
 
@@ -76,7 +76,7 @@ lks_status lks_game_create(const lockstone_game_table* table, lks_game** out) {
     required(out, "out");
     std::string why;
     auto full = tool::full_table(table, why);
-    if (!full.ok()) throw Failure{static_cast<lks_status>(full.status()), why};
+    if (!full.ok()) throw_status(static_cast<lks_status>(full.status()), why);
     auto game = std::make_shared<Game>();
     game->name = full.value()->name;
     if (full.value()->version != nullptr) game->version = full.value()->version;
@@ -108,8 +108,8 @@ lks_status lks_simulation_create(const lks_game* game, const void* config, size_
     const ByteView bytes = bytes_of(config, config_bytes, "config");
     auto made = shared->make(bytes);
     if (!made.ok()) {
-      throw Failure{static_cast<lks_status>(made.status()),
-                    "the game refuses the configuration: " + std::string(to_string(made.status()))};
+      throw_status(static_cast<lks_status>(made.status()),
+                   "the game refuses the configuration: " + std::string(to_string(made.status())));
     }
     *out = make_handle(shared, {bytes.begin(), bytes.end()}, std::move(made).value()).release();
   });
@@ -146,7 +146,7 @@ lks_status lks_simulation_world(const lks_simulation* simulation, lks_world** ou
     const std::shared_ptr<Simulation>& match = required(simulation, "simulation").simulation;
     required(out, "out");
     const World* seen = scenes::world_of(*match);
-    if (seen == nullptr) throw Failure{LKS_NOT_FOUND, "the game is not one of the built-in ones"};
+    if (seen == nullptr) throw_status(LKS_NOT_FOUND, "the game is not one of the built-in ones");
     auto world = std::make_unique<lks_world>();
     world->shown = {match, seen};
     *out = world.release();
@@ -166,8 +166,8 @@ lks_status lks_simulation_command(lks_simulation* simulation, uint32_t slot, con
   return call([&] {
     Simulation& target = write(simulation);
     if (slot >= target.info().player_count && slot != k_server_slot)
-      throw invalid("slot", "there is no such slot");
-    if (count == 0 || count > k_max_command_bytes) throw invalid("count", "must be 1 … 65536");
+      throw_invalid("slot", "there is no such slot");
+    if (count == 0 || count > k_max_command_bytes) throw_invalid("count", "must be 1 … 65536");
     target.command({static_cast<std::uint8_t>(slot), bytes_of(bytes, count, "bytes")});
   });
 }
@@ -198,8 +198,7 @@ lks_status lks_simulation_save(const lks_simulation* simulation, uint32_t kind, 
     const std::size_t most = source.snapshot_bytes_max(form);
     if (capacity < most) {
       *bytes = most;
-      throw Failure{LKS_BUFFER_TOO_SMALL,
-                    "a snapshot has up to " + std::to_string(most) + " bytes"};
+      throw_status(LKS_BUFFER_TOO_SMALL, "a snapshot has up to " + std::to_string(most) + " bytes");
     }
     *bytes = source.save(form, {room, most});
   });
@@ -210,6 +209,6 @@ lks_status lks_simulation_load(lks_simulation* simulation, uint32_t kind, const 
   return call([&] {
     Simulation& target = write(simulation);
     const Status status = target.load(kind_of(kind), bytes_of(bytes, count, "bytes"));
-    if (status != Status::ok) throw failure(status);
+    if (status != Status::ok) throw_failure(status);
   });
 }

@@ -9,7 +9,7 @@ using namespace lockstone::c;
 
 template <class Axis>
 Axis axis_of(const lks_axis& raw, const char* field) {
-  if (raw.reserved != 0) throw invalid(field, "reserved must be 0");
+  if (raw.reserved != 0) throw_invalid(field, "reserved must be 0");
   Axis axis;
   axis.mode = enumerator(raw.mode, AxisMode::locked, AxisMode::limited, field);
   axis.lower.raw = raw.lower;
@@ -104,7 +104,7 @@ template <class Command, class Axis>
 lks_status set_axis(lks_world* world, lks_joint joint, std::uint32_t axis,
                     const lks_axis* settings) {
   return call([&] {
-    if (axis > 2) throw invalid("axis", "must be 0 … 2");
+    if (axis > 2) throw_invalid("axis", "must be 0 … 2");
     order(world, Command{handle_of<JointHandle>(joint), static_cast<std::uint8_t>(axis),
                          axis_of<Axis>(required(settings, "settings"), "settings")});
   });
@@ -127,7 +127,7 @@ lks_status lks_create_joint(lks_world* world, const lks_joint_def* def, lks_join
     required(out, "out");
     const JointDef joint = joint_def_of(def);
     const Result<JointHandle> made = target.create_joint(joint);
-    if (!made.ok()) throw failure(made.status(), target.explain(joint));
+    if (!made.ok()) throw_failure(made.status(), target.explain(joint));
     *out = id_of(made.value());
   });
 }
@@ -150,7 +150,7 @@ lks_status lks_joint_get(const lks_world* world, lks_joint joint, lks_joint_view
   return call([&] {
     const World& source = read(world);
     const auto handle = handle_of<JointHandle>(joint);
-    if (!source.exists(handle)) throw failure(Status::stale_handle);
+    if (!source.exists(handle)) throw_failure(Status::stale_handle);
     give(view_of(source.joint(handle)), out, required(out, "out").size, "out");
   });
 }

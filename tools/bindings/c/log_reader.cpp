@@ -26,7 +26,7 @@ using namespace lockstone::c;
 
 [[noreturn]] void fail(Status status, std::string what) {
   if (what.empty()) what = to_string(status);
-  throw Failure{static_cast<lks_status>(status), std::move(what)};
+  throw_status(static_cast<lks_status>(status), std::move(what));
 }
 
 std::unique_ptr<lks_log> open(std::unique_ptr<lks_log> log) {
@@ -157,7 +157,7 @@ void next(lks_log& log) {
   if (!log.has_next) log.has_next = log.ticks->next();
   if (log.has_next) return;
   const replay::Damage& damage = log.ticks->reader().damage();
-  if (damage.status == Status::ok) throw Failure{LKS_NOT_FOUND, "the log has no more ticks"};
+  if (damage.status == Status::ok) throw_status(LKS_NOT_FOUND, "the log has no more ticks");
   if (damage.status == Status::truncated) fail(Status::not_found, damage.what);
   fail(damage.status, damage.what);
 }
@@ -207,7 +207,7 @@ lks_status lks_log_player_name(lks_log* log, uint32_t slot, char* out, size_t ca
     auto read = replay::read_log_info(*handle(log).source, &damage);
     if (!read.ok()) fail(read.status(), damage.what);
     const std::vector<std::string>& names = read.value().player_names;
-    if (slot >= names.size()) throw invalid("slot", "there is no such slot");
+    if (slot >= names.size()) throw_invalid("slot", "there is no such slot");
     write_text(names[slot], array(out, capacity, "out"), capacity);
   });
 }
@@ -231,7 +231,7 @@ lks_status lks_log_next(lks_log* log, uint64_t* tick, void* inputs, size_t bytes
     for (const PlayerInput& input : source.ticks->inputs())
       needed += input.bytes.size();
     if (needed > bytes) {
-      throw Failure{LKS_BUFFER_TOO_SMALL, "the inputs have " + std::to_string(needed) + " bytes"};
+      throw_status(LKS_BUFFER_TOO_SMALL, "the inputs have " + std::to_string(needed) + " bytes");
     }
     for (const PlayerInput& input : source.ticks->inputs()) {
       room = std::ranges::copy(input.bytes, room).out;
@@ -250,9 +250,9 @@ lks_status lks_log_command(lks_log* log, size_t index, uint32_t* slot, void* out
     const lks_log& source = handle(log);
     required(slot, "slot");
     required(count, "count");
-    if (source.has_next || !source.read) throw Failure{LKS_NOT_FOUND, "no tick was read"};
+    if (source.has_next || !source.read) throw_status(LKS_NOT_FOUND, "no tick was read");
     const std::span<const PlayerCommand> commands = source.ticks->commands();
-    if (index >= commands.size()) throw Failure{LKS_NOT_FOUND, "the tick has no such command"};
+    if (index >= commands.size()) throw_status(LKS_NOT_FOUND, "the tick has no such command");
     *slot = commands[index].slot;
     give_bytes(commands[index].bytes, out, capacity, *count, "the command");
   });

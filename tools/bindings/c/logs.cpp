@@ -42,8 +42,8 @@ lks_status lks_verify_log(const char* path, lks_log_report* report) {
     required(report, "report");
     auto source = replay::FileSource::open(&required(path, "path"));
     if (!source.ok()) {
-      throw Failure{static_cast<lks_status>(source.status()),
-                    std::string(path) + ": " + std::string(to_string(source.status()))};
+      throw_status(static_cast<lks_status>(source.status()),
+                   std::string(path) + ": " + std::string(to_string(source.status())));
     }
     verify(*source.value(), scenes::make_simulation, *report);
   });

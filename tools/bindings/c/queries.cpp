@@ -29,9 +29,9 @@ struct ListedFilter {
   [[gnu::noinline]] explicit ListedFilter(const lks_query_filter* from) {
     const lks_query_filter raw =
         from == nullptr ? default_filter() : take(from, default_filter(), "filter");
-    if (raw.reserved != 0) throw invalid("filter.reserved", "must be 0");
+    if (raw.reserved != 0) throw_invalid("filter.reserved", "must be 0");
     if (raw.listed_count > LKS_FILTER_BODIES)
-      throw invalid("filter.listed_count", "must be 0 … 16");
+      throw_invalid("filter.listed_count", "must be 0 … 16");
     for (std::size_t i = 0; i < raw.listed_count; ++i)
       listed[i] = handle_of<BodyHandle>(raw.listed[i]);
     filter.mask = raw.mask;
@@ -52,7 +52,7 @@ Vec3<Length> way_of(const lks_length3* way) {
   const auto result = vec<Length>(required(way, "way"));
   for (int i = 0; i < 3; ++i) {
     if (result[i] > k_max_cast || result[i] < -k_max_cast)
-      throw invalid("way", "must be within ±512 m along each axis");
+      throw_invalid("way", "must be within ±512 m along each axis");
   }
   return result;
 }
@@ -64,13 +64,13 @@ Ray ray_of(const lks_position3* origin, const lks_length3* way) {
 // A convex shape whose hull the world knows.
 Shape query_shape(const World& world, const lks_shape* raw) {
   const Shape shape = shape_of(required(raw, "shape"), "shape.kind");
-  if (validate(shape) != Status::ok) throw invalid("shape", "a size is out of range");
+  if (validate(shape) != Status::ok) throw_invalid("shape", "a size is out of range");
   if (is_primitive(shape.kind)) return shape;
   if (shape.kind != ShapeKind::hull)
-    throw invalid("shape.kind", "must be sphere, capsule, box or hull");
+    throw_invalid("shape.kind", "must be sphere, capsule, box or hull");
   const Asset* asset = world.assets()->find(shape.asset);
-  if (asset == nullptr) throw Failure{LKS_NOT_FOUND, "shape.asset: the world has no such asset"};
-  if (asset->kind() != ShapeKind::hull) throw invalid("shape.asset", "is no hull");
+  if (asset == nullptr) throw_status(LKS_NOT_FOUND, "shape.asset: the world has no such asset");
+  if (asset->kind() != ShapeKind::hull) throw_invalid("shape.asset", "is no hull");
   return shape;
 }
 
@@ -177,7 +177,7 @@ lks_status lks_bodies_in_box(const lks_world* world, const lks_position3* lower,
     const World& source = read(world);
     const Vec3<Position> low = place_of(lower, "lower"), high = place_of(upper, "upper");
     for (int i = 0; i < 3; ++i) {
-      if (low[i] > high[i]) throw invalid("lower", "must not be above `upper`");
+      if (low[i] > high[i]) throw_invalid("lower", "must not be above `upper`");
     }
     const ListedFilter seen(filter);
     give_all<BodyHandle>(
@@ -191,7 +191,7 @@ lks_status lks_closest_point(const lks_world* world, const lks_position3* point,
   return call([&] {
     const World& source = read(world);
     const Vec3<Position> place = place_of(point, "point");
-    if (reach < 0 || reach > k_max_cast.raw) throw invalid("reach", "must be 0 … 512 m");
+    if (reach < 0 || reach > k_max_cast.raw) throw_invalid("reach", "must be 0 … 512 m");
     const ClosestHit hit =
         source.closest_point(place, Length::from_raw(reach), ListedFilter(filter));
     required(out, "out") = {id_of(hit.body), raw_of(hit.point), hit.distance.raw, hit.part};

@@ -16,7 +16,7 @@ using namespace lockstone::c;
 static_assert(LKS_MAX_BONES == k_max_bones && LKS_NO_BONE == k_no_bone);
 
 Quat rotation_of(const lks_quat& raw, const char* field) {
-  if ((raw.x | raw.y | raw.z | raw.w) == 0) throw invalid(field, "a rotation must not be all 0");
+  if ((raw.x | raw.y | raw.z | raw.w) == 0) throw_invalid(field, "a rotation must not be all 0");
   return quat_of(raw);
 }
 
@@ -42,7 +42,7 @@ lks_bone raw_of(const Bone& bone) {
 }
 
 Bone bone_of(const lks_bone& raw) {
-  if (raw.reserved != 0) throw invalid("bone", "reserved must be 0");
+  if (raw.reserved != 0) throw_invalid("bone", "reserved must be 0");
   Bone bone;
   bone.parent = raw.parent;
   bone.joint = enumerator(raw.joint, JointKind::distance, k_last_joint_kind, "bone.joint");
@@ -62,13 +62,13 @@ Bone bone_of(const lks_bone& raw) {
 class Skeleton {
  public:
   Skeleton(const lks_bone* bones, std::size_t count, const lks_ragdoll_def* def = nullptr) {
-    if (count < 1 || count > k_max_bones) throw invalid("bone_count", "must be 1 … 64");
+    if (count < 1 || count > k_max_bones) throw_invalid("bone_count", "must be 1 … 64");
     (void)array(bones, count, "bones");
     for (std::size_t i = 0; i < count; ++i)
       bones_.push_back(bone_of(bones[i]));
     for (std::size_t i = 0; i < count; ++i)
       if (i == 0 ? bones_[i].parent != k_no_bone : bones_[i].parent >= i)
-        throw invalid("bone.parent", "must be a bone before, of the first LKS_NO_BONE");
+        throw_invalid("bone.parent", "must be a bone before, of the first LKS_NO_BONE");
     def_.bones = bones_;
     if (def == nullptr) return;
     const lks_ragdoll_def raw = take(def, defaults(), "def");
@@ -121,7 +121,7 @@ lks_ragdoll raw_of(const Ragdoll& ragdoll) {
 
 Ragdoll ragdoll_of(const lks_ragdoll* from) {
   const lks_ragdoll raw = take(from, lks_ragdoll{}, "ragdoll");
-  if (raw.bone_count > k_max_bones) throw invalid("ragdoll.bone_count", "must be 1 … 64");
+  if (raw.bone_count > k_max_bones) throw_invalid("ragdoll.bone_count", "must be 1 … 64");
   Ragdoll ragdoll;
   ragdoll.bone_count = raw.bone_count;
   for (std::size_t i = 0; i < raw.bone_count; ++i) {
@@ -136,7 +136,7 @@ Ragdoll ragdoll_of(const lks_ragdoll* from) {
 Ragdoll ragdoll_of(const lks_ragdoll* from, const Skeleton& skeleton) {
   const Ragdoll ragdoll = ragdoll_of(from);
   if (ragdoll.bone_count != skeleton.size())
-    throw invalid("ragdoll.bone_count", "must be the number of bones");
+    throw_invalid("ragdoll.bone_count", "must be the number of bones");
   return ragdoll;
 }
 
@@ -146,7 +146,7 @@ lks_bone_drive raw_of(const BoneDrive& drive) {
 }
 
 BoneDrive drive_of(const lks_bone_drive& raw) {
-  if (raw.reserved != 0) throw invalid("drive", "reserved must be 0");
+  if (raw.reserved != 0) throw_invalid("drive", "reserved must be 0");
   return {enumerator(raw.mode, BoneMode::limp, BoneMode::kinematic, "drive.mode"),
           Number::from_raw(raw.hertz), Number::from_raw(raw.damping_ratio),
           Torque::from_raw(raw.max_torque)};
@@ -194,7 +194,7 @@ lks_status lks_create_ragdoll(lks_world* world, const lks_ragdoll_def* def, cons
     const std::uint32_t size = required(out, "out").size;
     check_size<lks_ragdoll>(size, "out");
     const Result<Ragdoll> made = create_ragdoll(to, skeleton.def(), stands);
-    if (!made.ok()) throw failure(made.status(), explain(to, skeleton.def()));
+    if (!made.ok()) throw_failure(made.status(), explain(to, skeleton.def()));
     give(raw_of(made.value()), out, size, "out");
   });
 }
@@ -212,7 +212,7 @@ lks_status lks_drive_ragdoll(lks_world* world, const lks_ragdoll_def* def, const
     const Skeleton skeleton(bones, bone_count, &required(def, "def"));
     Ragdoll driven = ragdoll_of(ragdoll, skeleton);
     if (drive_count != 1 && drive_count != bone_count)
-      throw invalid("drive_count", "must be 1 or the number of bones");
+      throw_invalid("drive_count", "must be 1 or the number of bones");
     (void)array(drives, drive_count, "drives");
     std::vector<BoneDrive> list;
     for (std::size_t i = 0; i < drive_count; ++i)
@@ -220,7 +220,7 @@ lks_status lks_drive_ragdoll(lks_world* world, const lks_ragdoll_def* def, const
     const Status status = drive_ragdoll(target, skeleton.def(), driven, pose_of(from, bone_count),
                                         pose_of(to, bone_count), list);
     give(raw_of(driven), ragdoll, ragdoll->size, "ragdoll");
-    if (status != Status::ok) throw failure(status);
+    if (status != Status::ok) throw_failure(status);
   });
 }
 
@@ -262,7 +262,7 @@ lks_status lks_create_drag(lks_world* world, const lks_drag* drag, const lks_pos
     lks_joint& joint = required(out, "out");
     const JointDef def = drag_joint(to, drag_of(to, drag), place_of(target, "target"));
     const Result<JointHandle> made = to.create_joint(def);
-    if (!made.ok()) throw failure(made.status(), to.explain(def));
+    if (!made.ok()) throw_failure(made.status(), to.explain(def));
     joint = id_of(made.value());
   });
 }

@@ -17,8 +17,8 @@ lks_recorder_def raw_def() {
 
 void must(Status status, const char* what) {
   if (status != Status::ok) {
-    throw Failure{static_cast<lks_status>(status),
-                  std::string(what) + ": " + std::string(to_string(status))};
+    throw_status(static_cast<lks_status>(status),
+                 std::string(what) + ": " + std::string(to_string(status)));
   }
 }
 
@@ -36,7 +36,7 @@ replay::MatchMetadata metadata(const lks_recorder_def& def, const Match& match,
 
 std::shared_ptr<Match> own_match(const lks_simulation* simulation) {
   const std::shared_ptr<Match>& match = required(simulation, "simulation").match;
-  if (match == nullptr) throw invalid("simulation", "is a client's: its server records the match");
+  if (match == nullptr) throw_invalid("simulation", "is a client's: its server records the match");
   return match;
 }
 
@@ -109,7 +109,7 @@ lks_status lks_recorder_step(lks_recorder* recorder, const void* inputs, size_t 
   return call([&] {
     LogWriter& log = *required(recorder, "recorder").log;
     if (log.match->simulation == nullptr)
-      throw Failure{LKS_READ_ONLY, "a client records its ticks itself"};
+      throw_status(LKS_READ_ONLY, "a client records its ticks itself");
     const Simulation& simulation = *log.match->simulation;
     const FlatInputs flat(simulation.info(), inputs, bytes, origins);
     must(log.recorder->record_step(simulation, flat.list()), "the tick was not recorded");
@@ -136,7 +136,7 @@ lks_status lks_recorder_bytes(const lks_recorder* recorder, void* out, size_t ca
                               size_t* count) {
   return call([&] {
     const LogWriter& log = *required(recorder, "recorder").log;
-    if (log.memory == nullptr) throw Failure{LKS_NOT_FOUND, "the log is written to a file"};
+    if (log.memory == nullptr) throw_status(LKS_NOT_FOUND, "the log is written to a file");
     give_bytes(log.memory->bytes(), out, capacity, required(count, "count"), "the log");
   });
 }

@@ -20,7 +20,7 @@ lks_status lks_world_create_scene(const char* name, uint64_t seed, lks_world** o
   return call([&] {
     required(out, "out");
     auto scene = scenes::make_play(&required(name, "name"), seed);
-    if (!scene.ok()) throw Failure{LKS_NOT_FOUND, std::string("no scene is called ") + name};
+    if (!scene.ok()) throw_status(LKS_NOT_FOUND, std::string("no scene is called ") + name);
     auto world = std::make_unique<lks_world>();
     world->scene = std::move(scene).value();
     *out = world.release();

@@ -175,7 +175,7 @@ namespace {
 
 net::Server& running(lks_server* server) {
   if (required(server, "server").updating)
-    throw Failure{LKS_READ_ONLY, "the server is being updated"};
+    throw_status(LKS_READ_ONLY, "the server is being updated");
   return *server->server;
 }
 
@@ -196,7 +196,7 @@ net::ServerParts parts_of(lks_server& made) {
 
 void claim(lks_server& made, lks_simulation* simulation, lks_transport* transport) {
   const std::shared_ptr<Match>& match = required(simulation, "simulation").match;
-  if (match == nullptr || match->in_session) throw invalid("simulation", "is another session's");
+  if (match == nullptr || match->in_session) throw_invalid("simulation", "is another session's");
   lockstone::c::claim(transport);
   made.carrier = transport->carrier;
   match->in_session = true;
@@ -230,7 +230,7 @@ lks_status lks_server_create(const lks_server_def* def, lks_simulation* simulati
     config.match_config = made->match->config;
     config.info = made->match->simulation->info();
     net::Server::Created created = net::Server::create(config, parts_of(*made));
-    if (created.server == nullptr) throw invalid("def", to_string(created.error));
+    if (created.server == nullptr) throw_invalid("def", to_string(created.error));
     made->server = std::move(created.server);
     *out = made.release();
   });
@@ -243,12 +243,12 @@ void lks_server_destroy(lks_server* server) {
 lks_status lks_server_update(lks_server* server, int64_t now_us) {
   return call([&] {
     net::Server& target = running(server);
-    if (now_us < 0) throw invalid("now_us", "must not be negative");
+    if (now_us < 0) throw_invalid("now_us", "must not be negative");
     server->events.clear();
     const Updating during(server->updating);
     target.update(now_us);
     if (server->log_status != Status::ok) {
-      throw Failure{static_cast<lks_status>(server->log_status), "the log was given up"};
+      throw_status(static_cast<lks_status>(server->log_status), "the log was given up");
     }
   });
 }
@@ -272,7 +272,7 @@ lks_status lks_server_send_command(lks_server* server, const void* bytes, size_t
   return call([&] {
     const ByteView command = bytes_of(bytes, count, "bytes");
     const Status status = running(server).send_command(command);
-    if (status != Status::ok) throw failure(status);
+    if (status != Status::ok) throw_failure(status);
   });
 }
 
@@ -280,10 +280,10 @@ lks_status lks_server_record(lks_server* server, lks_recorder* recorder) {
   return call([&] {
     running(server);
     const std::shared_ptr<LogWriter>& log = required(recorder, "recorder").log;
-    if (server->relay) throw invalid("server", "a relay has no states to record");
-    if (log->match != server->match) throw invalid("recorder", "records another simulation");
+    if (server->relay) throw_invalid("server", "a relay has no states to record");
+    if (log->match != server->match) throw_invalid("recorder", "records another simulation");
     if (log->recorder->next_tick() != server->match->simulation->tick())
-      throw invalid("recorder", "does not stand at the server's tick");
+      throw_invalid("recorder", "does not stand at the server's tick");
     server->log = log;
     server->log_status = Status::ok;
   });
@@ -323,7 +323,7 @@ lks_status lks_server_player_name(const lks_server* server, uint32_t slot, char*
   return call([&] {
     const lks_server& source = handle(server);
     if (slot >= source.match->simulation->info().player_count)
-      throw invalid("slot", "there is no such slot");
+      throw_invalid("slot", "there is no such slot");
     write_text(source.server->player_name(static_cast<std::uint8_t>(slot)),
                array(out, capacity, "out"), capacity);
   });
@@ -333,7 +333,7 @@ lks_status lks_server_stats(const lks_server* server, uint32_t slot, lks_session
   return call([&] {
     const lks_server& source = handle(server);
     if (slot >= source.match->simulation->info().player_count)
-      throw invalid("slot", "there is no such slot");
+      throw_invalid("slot", "there is no such slot");
     give(raw_of(source.server->stats(static_cast<std::uint8_t>(slot))), stats,
          required(stats, "stats").size, "stats");
   });

@@ -23,7 +23,7 @@ void SessionEvents::give_text(std::size_t index, char* out, std::size_t capacity
 }
 
 std::string_view SessionEvents::text_of(std::size_t index) const {
-  if (index >= events_.size()) throw Failure{LKS_NOT_FOUND, "there is no such event"};
+  if (index >= events_.size()) throw_status(LKS_NOT_FOUND, "there is no such event");
   const auto found = std::ranges::find(texts_, index, &Text::index);
   return found == texts_.end() ? std::string_view() : found->text;
 }
@@ -33,7 +33,7 @@ void SessionEvents::give_command(std::size_t index, void* out, std::size_t capac
   required(count, "count");
   const std::string_view text = text_of(index);
   if (events_[index].kind != LKS_SESSION_COMMAND)
-    throw Failure{LKS_NOT_FOUND, "the event is no command"};
+    throw_status(LKS_NOT_FOUND, "the event is no command");
   give_bytes(std::as_bytes(std::span(text)), out, capacity, *count, "the command");
 }
 
@@ -58,7 +58,7 @@ lks_session_event event_of(const net::DesyncReport& report) {
 }
 
 std::int64_t timeout_of(std::int64_t value_us, std::string_view field) {
-  if (value_us <= 0) throw invalid(field, "must be above 0");
+  if (value_us <= 0) throw_invalid(field, "must be above 0");
   return value_us;
 }
 

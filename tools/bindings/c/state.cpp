@@ -71,7 +71,7 @@ lks_status lks_save(const lks_world* world, uint32_t kind, void* out, size_t cap
     const std::size_t written = source.scene ? save_scene(source.scene->simulation(), form, room)
                                              : source.own->save(form, room);
     *bytes = written > 0 ? written : bytes_max(source, form);
-    if (written == 0) throw Failure{LKS_BUFFER_TOO_SMALL, "the snapshot does not fit"};
+    if (written == 0) throw_status(LKS_BUFFER_TOO_SMALL, "the snapshot does not fit");
   });
 }
 
@@ -82,7 +82,7 @@ lks_status lks_load(lks_world* world, uint32_t kind, const void* bytes, size_t c
     const ByteView state = bytes_of(bytes, count, "bytes");
     const Status status =
         world->scene ? world->scene->simulation().load(form, state) : world->own->load(form, state);
-    if (status != Status::ok) throw failure(status);
+    if (status != Status::ok) throw_failure(status);
   });
 }
 

@@ -51,7 +51,7 @@ lks_status lks_terrain_sample_get(const lks_world* world, lks_body body, uint32_
   return call([&] {
     const World& from = read(world);
     const auto sample = terrain_sample_of(from, existing_body(from, body), column, row);
-    if (!sample) throw failure(Status::invalid_argument);
+    if (!sample) throw_failure(Status::invalid_argument);
     required(height, "height") = sample->height.raw;
     required(is_hole, "is_hole") = sample->is_hole ? 1 : 0;
     required(surface, "surface") = sample->surface;
@@ -69,7 +69,7 @@ lks_status lks_mesh_group_get(const lks_world* world, lks_body body, uint32_t gr
   return call([&] {
     const World& from = read(world);
     const std::optional<bool> found = is_mesh_group_on(from, existing_body(from, body), group);
-    if (!found) throw failure(Status::invalid_argument);
+    if (!found) throw_failure(Status::invalid_argument);
     required(is_on, "is_on") = *found ? 1 : 0;
   });
 }

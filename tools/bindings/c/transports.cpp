@@ -11,7 +11,7 @@ namespace lockstone::c {
 
 Carrier& claim(lks_transport* transport) {
   Carrier& carrier = *required(transport, "transport").carrier;
-  if (carrier.in_session) throw invalid("transport", "carries a session already");
+  if (carrier.in_session) throw_invalid("transport", "carries a session already");
   carrier.in_session = true;
   return carrier;
 }
@@ -25,12 +25,12 @@ lks_link_faults faults_of(const lks_link_faults* from) {
 }
 
 std::uint32_t part_per_million(std::uint32_t value, std::string_view field) {
-  if (value > 1'000'000) throw invalid(field, "must be 0 … 1,000,000");
+  if (value > 1'000'000) throw_invalid(field, "must be 0 … 1,000,000");
   return value;
 }
 
 std::int64_t time_us(std::int64_t value, std::string_view field) {
-  if (value < 0 || value > 10'000'000) throw invalid(field, "must be 0 … 10,000,000 µs");
+  if (value < 0 || value > 10'000'000) throw_invalid(field, "must be 0 … 10,000,000 µs");
   return value;
 }
 
@@ -48,7 +48,7 @@ net::LinkFaults link_faults(const lks_link_faults* from) {
 net::SimTransport& end_of(lks_transport* transport, const lks_network& network,
                           std::string_view name) {
   const Carrier& carrier = *required(transport, name).carrier;
-  if (carrier.network != network.network) throw invalid(name, "is no end of this network");
+  if (carrier.network != network.network) throw_invalid(name, "is no end of this network");
   return static_cast<net::SimTransport&>(*carrier.session);
 }
 
@@ -90,7 +90,7 @@ lks_status lks_network_connect(lks_network* network, lks_transport* from, lks_tr
     const lks_network& owner = required(network, "network");
     net::SimTransport& caller = end_of(from, owner, "from");
     net::SimTransport& called = end_of(to, owner, "to");
-    if (&caller == &called) throw invalid("to", "is the same end as `from`");
+    if (&caller == &called) throw_invalid("to", "is the same end as `from`");
     required(connection, "connection");
     *connection = owner.network->connect(caller, called, link_faults(faults));
   });

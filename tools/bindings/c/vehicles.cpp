@@ -218,7 +218,7 @@ lks_status lks_vehicle_get(const lks_world* world, lks_body chassis, lks_vehicle
     const World& from = read(world);
     const std::uint32_t size = required(out, "out").size;
     const std::optional<VehicleView> view = vehicle_of(from, existing_body(from, chassis));
-    if (!view) throw invalid("chassis", "must be the chassis of a vehicle");
+    if (!view) throw_invalid("chassis", "must be the chassis of a vehicle");
     give(raw_of(*view), out, size, "out");
   });
 }

@@ -8,25 +8,25 @@ namespace lockstone::c {
 
 const lks_world& saved(const lks_world* world) {
   if (handle(world).shown != nullptr)
-    throw Failure{LKS_READ_ONLY, "the world of a match is stepped and saved by its session"};
+    throw_status(LKS_READ_ONLY, "the world of a match is stepped and saved by its session");
   return *world;
 }
 
 World& write(lks_world* world) {
   required(world, "world");
-  if (saved(world).scene) throw Failure{LKS_READ_ONLY, "a built-in scene takes no command"};
+  if (saved(world).scene) throw_status(LKS_READ_ONLY, "a built-in scene takes no command");
   return *world->own;
 }
 
 void order(lks_world* world, const Command& command) {
   World& target = write(world);
   const Status status = target.apply(command);
-  if (status != Status::ok) throw failure(status, target.explain(command));
+  if (status != Status::ok) throw_failure(status, target.explain(command));
 }
 
 BodyHandle existing_body(const World& world, lks_body body) {
   const auto handle = handle_of<BodyHandle>(body);
-  if (!world.exists(handle)) throw failure(Status::stale_handle);
+  if (!world.exists(handle)) throw_failure(Status::stale_handle);
   return handle;
 }
 
@@ -71,7 +71,7 @@ WorldDef world_def_of(const lks_world_def* from) {
   def.vehicle_capacity = raw.vehicle_capacity;
   def.terrain_tile_capacity = raw.terrain_tile_capacity;
   const Refusal refusal = World::explain(def);
-  if (refusal) throw failure(Status::invalid_argument, refusal);
+  if (refusal) throw_failure(Status::invalid_argument, refusal);
   return def;
 }
 
@@ -152,7 +152,7 @@ lks_status lks_config_hash(const lks_world_def* def, const lks_assets* assets, u
 lks_status lks_world_set_threads(lks_world* world, uint32_t threads) {
   return call([&] {
     static_cast<void>(saved(&required(world, "world")));
-    if (threads < 1 || threads > k_max_workers) throw invalid("threads", "must be 1 … 64");
+    if (threads < 1 || threads > k_max_workers) throw_invalid("threads", "must be 1 … 64");
     auto pool = threads > 1 ? std::make_unique<ThreadPool>(threads) : nullptr;
     set_runner(*world, pool.get());
     world->threads = std::move(pool);
@@ -171,7 +171,7 @@ lks_status lks_step(lks_world* world, lks_step_report* report) {
 lks_status lks_world_keep_history(lks_world* world, uint32_t ticks) {
   return call([&] {
     World& own = write(world);
-    if (ticks > LKS_MAX_HISTORY_TICKS) throw invalid("ticks", "must be 0 … 256");
+    if (ticks > LKS_MAX_HISTORY_TICKS) throw_invalid("ticks", "must be 0 … 256");
     world->history.reset();
     if (ticks != 0) world->history.emplace(own, ticks);
   });

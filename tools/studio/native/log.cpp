@@ -140,7 +140,7 @@ std::unique_ptr<lks_studio_log> read_log(ByteView bytes) {
   replay::MemorySource source(bytes);
   replay::LogReader reader(source);
   const Status opened = reader.open();
-  if (opened != Status::ok) throw Failure{static_cast<lks_status>(opened), reader.damage().what};
+  if (opened != Status::ok) throw_status(static_cast<lks_status>(opened), reader.damage().what);
   log->header = reader.header();
   replay::LogItem item = reader.next();
   for (; !replay::is_last(item); item = reader.next())
@@ -149,7 +149,7 @@ std::unique_ptr<lks_studio_log> read_log(ByteView bytes) {
   if (item == replay::LogItem::finished) return log;
   log->damage = reader.damage().what;
   const bool nothing = log->config.empty() || log->hashes.empty();
-  if (nothing) throw Failure{static_cast<lks_status>(reader.damage().status), log->damage};
+  if (nothing) throw_status(static_cast<lks_status>(reader.damage().status), log->damage);
   return log;
 }
 
@@ -197,15 +197,15 @@ std::string text_of(const lks_studio_log& log, std::uint32_t which, std::uint32_
     case LKS_STUDIO_LOG_EVENT:
       return index < log.event_texts.size() ? log.event_texts[index] : std::string();
     default:
-      throw invalid("which", "there is no such text");
+      throw_invalid("which", "there is no such text");
   }
 }
 
 void load_keyframe(const lks_studio_log& log, std::uint32_t index, lks_world& world) {
-  if (index >= log.keyframes.size()) throw failure(Status::not_found);
+  if (index >= log.keyframes.size()) throw_failure(Status::not_found);
   Simulation& simulation = required(world.scene.get(), "world").simulation();
   const Status status = simulation.load(SnapshotKind::canonical, log.keyframes[index]);
-  if (status != Status::ok) throw failure(status);
+  if (status != Status::ok) throw_failure(status);
 }
 
 // The canary may differ: the states of another build can be looked at, and do not agree.
@@ -214,16 +214,16 @@ void check_same(const SimulationInfo& log, const SimulationInfo& here) {
       log.scene_hash == here.scene_hash && log.player_count == here.player_count &&
       log.input_bytes == here.input_bytes)
     return;
-  throw Failure{LKS_INCOMPATIBLE, "the log is of simulation " + std::to_string(log.abi) +
-                                      ", this build plays " + std::to_string(here.abi) +
-                                      ", or its rules and scene are others"};
+  throw_status(LKS_INCOMPATIBLE, "the log is of simulation " + std::to_string(log.abi) +
+                                     ", this build plays " + std::to_string(here.abi) +
+                                     ", or its rules and scene are others");
 }
 
 std::unique_ptr<lks_world> world_of(const lks_studio_log& log) {
   auto made = scenes::make_simulation(log.config);
   if (!made.ok()) {
-    throw Failure{LKS_INCOMPATIBLE, "the log's game is neither the arena nor a built-in scene: " +
-                                        text_of(log, 0, 0)};
+    throw_status(LKS_INCOMPATIBLE,
+                 "the log's game is neither the arena nor a built-in scene: " + text_of(log, 0, 0));
   }
   check_same(log.header.info, made.value()->info());
   auto world = std::make_unique<lks_world>();
@@ -269,7 +269,7 @@ lks_status lks_studio_log_step(const lks_studio_log* log, lks_world* world, uint
     required(play, "world");
     const auto tick =
         static_cast<std::size_t>(play->simulation().tick() - from.header.match.start_tick);
-    if (tick >= from.hashes.size()) throw failure(Status::not_found);
+    if (tick >= from.hashes.size()) throw_failure(Status::not_found);
     play->set_inputs(from, tick);
     const std::uint64_t now = play->simulation().tick();
     auto command = std::ranges::lower_bound(from.commands, now, {}, &TickCommand::tick);

@@ -51,7 +51,7 @@ World& world_to_change(lks_world* world) {
 
 void perform(World& world, const Command& command) {
   const Status status = world.apply(command);
-  if (status != Status::ok) throw failure(status, world.explain(command));
+  if (status != Status::ok) throw_failure(status, world.explain(command));
 }
 
 // The force of the spring and a damper at the point, and the weight, so that nothing sags.
@@ -108,7 +108,7 @@ void spawn(World& world, const lks_studio_action& action) {
   def.velocity = fixed<Velocity>(action.speed);
   def.is_bullet = true;
   const Result<BodyHandle> body = world.create_body(def);
-  if (!body.ok()) throw failure(body.status(), world.explain(def));
+  if (!body.ok()) throw_failure(body.status(), world.explain(def));
   (void)world.set_name(body.value(), "thrown");
 }
 
@@ -127,7 +127,7 @@ void act(World& world, const lks_studio_action& action) {
   else if (action.kind == LKS_STUDIO_PUSH)
     push(world, body, action);
   else
-    throw invalid("action.kind", "there is no such action");
+    throw_invalid("action.kind", "there is no such action");
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ lks_status lks_studio_scene(const char* name, uint64_t seed, lks_world** out) {
     required(out, "out");
     auto scene =
         scenes::make_play(&required(name, "name"), seed, BroadPhaseKind::tree, k_spare_bodies);
-    if (!scene.ok()) throw failure(scene.status());
+    if (!scene.ok()) throw_failure(scene.status());
     auto world = std::make_unique<lks_world>();
     world->scene = std::move(scene).value();
     *out = world.release();

@@ -13,7 +13,7 @@ lks_status lks_studio_described_world(const void* bytes, size_t count, lks_world
     c::required(out, "out");
     const auto* begin = static_cast<const std::byte*>(bytes);
     Result<World> described = watch::described_world(std::span(begin, count));
-    if (!described.ok()) throw c::failure(described.status());
+    if (!described.ok()) c::throw_failure(described.status());
     auto world = std::make_unique<lks_world>();
     world->own.emplace(std::move(described).value());
     *out = world.release();

@@ -120,6 +120,6 @@ lks_status lks_web_outline(const lks_world* world, lks_body body, lks_web_part* 
     required(triangle_count, "triangle_count") = outline.numbers.size() / k_triangle_numbers;
     give_count(outline.parts.size(), part_capacity, required(part_count, "part_count"), "parts");
     if (outline.numbers.size() > triangle_capacity * k_triangle_numbers)
-      throw Failure{LKS_BUFFER_TOO_SMALL, "there are more triangles than room"};
+      throw_status(LKS_BUFFER_TOO_SMALL, "there are more triangles than room");
   });
 }

@@ -63,7 +63,7 @@ lks_status lks_web_poses(const lks_world* world, const lks_position3* origin, lk
     const Vec3<Position> from = vec<Position>(required(origin, "origin"));
     const std::uint32_t limit = source.body_limit();
     required(used, "used") = limit;
-    if (limit > rows) throw Failure{LKS_BUFFER_TOO_SMALL, "there are more bodies than rows"};
+    if (limit > rows) throw_status(LKS_BUFFER_TOO_SMALL, "there are more bodies than rows");
     for (std::uint32_t row = 0; row < limit; ++row) {
       const BodyHandle body = source.body_at(row);
       bodies[row] = body.is_null() ? 0 : id_of(body);

@@ -1,12 +1,11 @@
 // Bots in a browser, and a fault for tests.
-#include "tools/web/native/lockstone_web_session.h"
-
 #include <array>
 #include <vector>
 
 #include "tools/arena/arena_simulation.h"
 #include "tools/arena/bots.h"
 #include "tools/bindings/c/game_handles.h"
+#include "tools/web/native/lockstone_web_session.h"
 
 namespace {
 
@@ -16,7 +15,7 @@ using namespace lockstone::c;
 arena::ArenaSimulation& arena_of(const lks_simulation* simulation) {
   Simulation* match = required(simulation, "simulation").simulation.get();
   auto* found = dynamic_cast<arena::ArenaSimulation*>(match);
-  if (found == nullptr) throw Failure{LKS_NOT_FOUND, "the match is not one of the arena"};
+  if (found == nullptr) throw_status(LKS_NOT_FOUND, "the match is not one of the arena");
   return *found;
 }
 
@@ -42,7 +41,7 @@ lks_status lks_web_bot(const lks_simulation* simulation, uint64_t seed, uint32_t
                        size_t capacity, size_t* bytes) {
   return call([&] {
     const arena::Arena& arena = arena_of(simulation).arena();
-    if (slot >= arena.config.players) throw invalid("slot", "is no player's");
+    if (slot >= arena.config.players) throw_invalid("slot", "is no player's");
     std::array<std::byte, arena::k_input_bytes> input{};
     arena::bot_input(arena, seed, slot).encode(input);
     give_bytes(input, out, capacity, required(bytes, "bytes"), "the input");
@@ -52,6 +51,6 @@ lks_status lks_web_bot(const lks_simulation* simulation, uint64_t seed, uint32_t
 lks_status lks_web_flip(const lks_simulation* simulation) {
   return call([&] {
     if (!flip(arena_of(simulation).arena_for_tests().world))
-      throw Failure{LKS_NOT_FOUND, "no body moves"};
+      throw_status(LKS_NOT_FOUND, "no body moves");
   });
 }

@@ -4,6 +4,7 @@ import { hex } from "./units.js";
 import { World } from "./world.js";
 
 export * from "./index.js";
+export { type PlacedShape, type ShapeGap, type ShapeHit, shapeCast, shapeDistance, shapeImpact } from "./pairs.js";
 export { Assets, assetShape, roundedBox, taperedCapsule } from "./shapes.js";
 export { describeDifference } from "./state.js";
 

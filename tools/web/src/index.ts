@@ -18,8 +18,8 @@ export {
 export { type LoadOptions, Lockstone, type WasmSource, hasSimd, load } from "./load.js";
 export { type Outline, type OutlinePart, outlineOf } from "./outline.js";
 export {
-  type Closest, type Hit, type QueryFilter, castRay, castRayAll, castShape, closestPoint, isRayBlocked, overlapShape,
-  overlapSphere,
+  type Closest, type Hit, type QueryFilter, bodiesInBox, castRay, castRayAll, castShape, closestPoint, isRayBlocked,
+  overlapShape, overlapSphere,
 } from "./queries.js";
 export {
   type Assets, type Shape, box, capsule, cone, cylinder, halfSpace, sphere,

@@ -152,6 +152,17 @@ export function overlapShape(world: World, shape: Shape, position: Vector, orien
     (found) => new Body(world, heap.getId(found)));
 }
 
+/** Bodies whose bounds along the world's axes overlap the box from `lower` to `upper`, by ascending index: no shape is looked at. */
+export function bodiesInBox(world: World, lower: Vector, upper: Vector, filter?: QueryFilter): Body[] {
+  const { heap } = world;
+  const [low, high] = [heap.input + START, heap.input + SHAPE];
+  heap.putVector64(low, lower, c.LKS_POSITION_BITS);
+  heap.putVector64(high, upper, c.LKS_POSITION_BITS);
+  const seen = putFilter(heap, filter);
+  return listAll(heap, 8, (...to) => heap.f.lks_bodies_in_box(world.address, low, high, seen, ...to),
+    (found) => new Body(world, heap.getId(found)));
+}
+
 /** The nearest point of any body within `reach`, 0 … 512 m, or null. */
 export function closestPoint(world: World, point: Vector, reach: Quantity, filter?: QueryFilter): Closest | null {
   const { heap } = world;
