@@ -84,6 +84,41 @@ TEST(Rollback, AsksThePredictorForOthersAlone) {
   EXPECT_EQ(zeros.asked[1], 0);
 }
 
+// A toy with three islands in each step, of which it remembers two.
+class CountingToy final : public toy::ToySimulation {
+ public:
+  using ToySimulation::ToySimulation;
+  [[nodiscard]] IslandWork island_work() const override { return {1, 2}; }
+};
+
+TEST(Rollback, CountsTheIslandsOfTicksThatAreSteppedAgain) {
+  MatchOptions options = predicting_match(25);
+  options.toy.player_count = 2;
+  options.server.start_players = 1;
+  Match match(options);
+  match.players[1].paused = true;
+  SimTransport& transport = match.network.add_endpoint();
+  ClientConfig config = options.client;
+  config.insecure = true;
+  ClientParts parts;
+  parts.transport = &transport;
+  parts.connection = match.network.connect(transport, match.server_transport, {.delay_us = 50'000});
+  parts.factory = toy::toy_factory<CountingToy>();
+  parts.inputs = match.players[1].inputs.get();
+  const auto client = std::move(Client::create(config, std::move(parts)).client);
+  for (int i = 0; i < 1000; ++i) {
+    client->update(match.now_us);
+    match.step();
+  }
+  const ClientStats stats = client->stats();
+  EXPECT_GT(stats.rollbacks, 10U);
+  EXPECT_GT(client->ticks_stepped(), stats.islands_computed_again / 8);
+  // All but the last rollback's ticks were stepped again, and no tick that was new.
+  EXPECT_LE(stats.islands_computed_again, stats.ticks_stepped_again);
+  EXPECT_GE(stats.islands_computed_again + config.prediction_ticks, stats.ticks_stepped_again);
+  EXPECT_EQ(stats.islands_recalled, 2 * stats.islands_computed_again);
+}
+
 TEST(Rollback, LocatesAFlippedBit) {
   const Flip flip{150, "body", "velocity.x", 12, 7};
   MatchOptions options = predicting_match(22);

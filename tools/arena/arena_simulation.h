@@ -28,6 +28,9 @@ class ArenaSimulation final : public Simulation {
     arena_.history = RollbackHistory(arena_.world, ticks);
   }
   void forget_history() override { arena_.history.forget(); }
+  [[nodiscard]] IslandWork island_work() const override {
+    return {last_report_.computed_islands, last_report_.recalled_islands};
+  }
   [[nodiscard]] std::uint64_t hash() const override;
   [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override;
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override;

@@ -43,6 +43,9 @@ class SceneSimulation final : public Simulation {
   Status load(SnapshotKind kind, ByteView bytes) override { return world_.load(kind, bytes); }
   void keep_history(std::uint32_t ticks) override { history_ = RollbackHistory(world_, ticks); }
   void forget_history() override { history_.forget(); }
+  [[nodiscard]] IslandWork island_work() const override {
+    return {last_report_.computed_islands, last_report_.recalled_islands};
+  }
   [[nodiscard]] std::uint64_t hash() const override { return world_.hash().total; }
   [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override;
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {

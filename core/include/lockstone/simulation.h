@@ -105,6 +105,12 @@ struct StateDifference {
   [[nodiscard]] std::string to_line() const;
 };
 
+/// Islands of one step: those that were computed, and those whose results a history remembered.
+struct IslandWork {
+  std::uint32_t computed = 0;
+  std::uint32_t recalled = 0;
+};
+
 /// A deterministic game. `step`, `save`, `load` and the hashes must not allocate after creation.
 class Simulation {
  public:
@@ -138,6 +144,9 @@ class Simulation {
 
   /// Forgets the remembered ticks: the next steps simulate in full.
   virtual void forget_history() {}
+
+  /// Of the last step, for statistics: no part of the state. Zero without a history.
+  [[nodiscard]] virtual IslandWork island_work() const { return {}; }
 
   /// A hash over everything that can change the future.
   [[nodiscard]] virtual std::uint64_t hash() const = 0;

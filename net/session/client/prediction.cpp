@@ -20,7 +20,7 @@ void Prediction::reserve(bool keeps_states) {
 }
 
 void Prediction::restart(std::uint64_t ticks) {
-  head_ = ticks;
+  head_ = stepped_before_ = ticks;
   keep_state();
 }
 
@@ -35,6 +35,11 @@ std::uint64_t Prediction::step(ByteView record, std::span<const PlayerCommand> c
   Simulation& simulation = *data_.game.simulation;
   step_tick(simulation, RecordInputs(record, data_.game.shape).view(), commands);
   ++head_;
+  if (head_ <= stepped_before_) {
+    const IslandWork work = simulation.island_work();
+    data_.stats.islands_computed_again += work.computed;
+    data_.stats.islands_recalled += work.recalled;
+  }
   note_parts(data_);
   keep_state();
   return simulation.hash();
@@ -55,6 +60,7 @@ void Prediction::roll_back(std::uint64_t tick) {
   data_.observer->rolled_back(tick, head_ - tick);
   ++data_.stats.rollbacks;
   data_.stats.ticks_stepped_again += head_ - tick;
+  stepped_before_ = std::max(stepped_before_, head_);
   head_ = tick;
 }
 

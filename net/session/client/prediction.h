@@ -61,6 +61,7 @@ class Prediction {
 
   ClientData& data_;
   std::uint64_t head_ = 0;
+  std::uint64_t stepped_before_ = 0;  ///< as many ticks were stepped before the last rollback
   TickRing states_;   ///< native snapshots, by the ticks stepped before
   TickRing guesses_;  ///< the records stepped
   std::vector<std::uint64_t> guess_hashes_;

@@ -187,6 +187,8 @@ lks_session_stats raw_of(const net::ClientStats& stats) {
   raw.rollbacks = stats.rollbacks;
   raw.ticks_stepped_again = stats.ticks_stepped_again;
   raw.states_loaded = stats.states_loaded;
+  raw.islands_computed_again = stats.islands_computed_again;
+  raw.islands_recalled = stats.islands_recalled;
   return raw;
 }
 

@@ -10,6 +10,10 @@
 
 namespace lockstone::c {
 
+/// Before it counted islands.
+template <>
+inline constexpr std::size_t k_first_size<lks_session_stats> = 120;
+
 class SessionEvents {
  public:
   SessionEvents() { events_.reserve(256); }

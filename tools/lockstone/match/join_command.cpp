@@ -187,6 +187,8 @@ void print_json(const net::Client& client, const JoinObserver& observer) {
       {"lead_ticks", stats.lead_ticks},
       {"rollbacks", stats.rollbacks},
       {"ticks_stepped_again", stats.ticks_stepped_again},
+      {"islands_computed_again", stats.islands_computed_again},
+      {"islands_recalled", stats.islands_recalled},
       {"states_loaded", stats.states_loaded},
       {"reconnects", observer.reconnects},
       {"stalled_ms", observer.stalls.stalled_us() / 1000},

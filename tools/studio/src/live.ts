@@ -22,7 +22,7 @@ const CHAT = 1; // first byte of a command: tools/arena/arena_command.h
 const PLAYER_TAG = 1; // of a player's body, above it the slot: tools/arena/tags.h
 const BOT_SEED = 1n;
 const MOST_LINES = 200;
-const FACTS = ["server", "seat", "state", "tick", "place", "players", "waits for", "lead", "late inputs", "rollbacks", "states loaded"] as const;
+const FACTS = ["server", "seat", "state", "tick", "place", "players", "waits for", "lead", "late inputs", "rollbacks", "islands again", "states loaded"] as const;
 /** Events that a person reads, as sentences. */
 const LINES: Partial<Record<SessionEvent["kind"], string>> = {
   started: "the match runs", joined: "joined", silent: "is silent", "player active": "plays", "state loaded": "a state was loaded",
@@ -70,6 +70,7 @@ export class LiveView implements Mode {
   private readonly charts = {
     lead: new Chart("Lead at the server", "ticks", "chart-lead"), received: new Chart("Received", "kB/s", "chart-received"),
     late: new Chart("Late inputs", "", "chart-late"), again: new Chart("Ticks stepped again", "", "chart-again"),
+    computed: new Chart("Islands computed again", "", "chart-computed"), recalled: new Chart("Islands remembered", "", "chart-recalled"),
   };
   private readonly lines = make("div", { class: "events", id: "live-events" });
   private readonly told = make("p", { id: "live-told", hidden: true });
@@ -80,7 +81,7 @@ export class LiveView implements Mode {
   private bot = false;
   private own = 0n;
   private colour: Colouring = "body";
-  private steppedAgain = 0;
+  private before = { again: 0, computed: 0, recalled: 0 }; // as the last tick found them
   private waiting = false; // for another seat
 
   static async open(engine: Engine, picture: Picture, live: Live): Promise<LiveView> {
@@ -117,6 +118,7 @@ export class LiveView implements Mode {
     this.facts.set("lead", this.plays ? `${stats.marginQuarters / 4} ticks` : "–");
     this.facts.set("late inputs", String(stats.substitutedInputs));
     this.facts.set("rollbacks", `${stats.rollbacks}, ${stats.ticksSteppedAgain} ticks again`);
+    this.facts.set("islands again", `${stats.islandsComputedAgain} computed, ${stats.islandsRecalled} remembered`);
     this.facts.set("states loaded", String(stats.statesLoaded));
     this.selection.refresh(this.lead.world, this.picture.target);
     if (this.plays) this.followOwn();
@@ -145,7 +147,7 @@ export class LiveView implements Mode {
     this.picture.frame(stage);
     this.controls = stage.client.slot < SEATS ? new Controls() : null;
     this.own = 0n;
-    this.steppedAgain = 0;
+    this.before = { again: 0, computed: 0, recalled: 0 };
     this.received.length = 0;
     this.tellRole();
   }
@@ -197,7 +199,7 @@ export class LiveView implements Mode {
 
   private measure(tick: number): void {
     const { stats } = this.lead.client;
-    const { lead, received, late, again } = this.charts;
+    const { lead, received, late } = this.charts;
     const at = performance.now();
     this.received.push({ at, bytes: stats.bytesReceived });
     while (this.received.length > 2 && this.received[0]!.at < at - 1000) this.received.shift();
@@ -205,8 +207,9 @@ export class LiveView implements Mode {
     if (at > first.at) received.series.set(tick, (stats.bytesReceived - first.bytes) / (at - first.at));
     if (this.plays) lead.series.set(tick, stats.marginQuarters / 4);
     late.series.set(tick, stats.substitutedInputs);
-    again.series.set(tick, stats.ticksSteppedAgain - this.steppedAgain);
-    this.steppedAgain = stats.ticksSteppedAgain;
+    const now = { again: stats.ticksSteppedAgain, computed: stats.islandsComputedAgain, recalled: stats.islandsRecalled };
+    for (const name of ["again", "computed", "recalled"] as const) this.charts[name].series.set(tick, now[name] - this.before[name]);
+    this.before = now;
   }
 
   private write(tick: number, text: string): void {

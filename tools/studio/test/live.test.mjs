@@ -24,6 +24,15 @@ function live(options, use) {
 }
 
 const finished = (page) => page.waitForFunction(() => /^finished/.test(document.getElementById("live-state")?.textContent), null, { timeout: 60_000 });
+// Pixels of a chart's curve in its upper half, in how many columns: none where all values are alike.
+const columnsAbove = (page, chart) => page.evaluate((id) => {
+  const canvas = document.getElementById(id).closest("figure").querySelector("canvas");
+  const { width, height } = canvas;
+  const { data } = canvas.getContext("2d").getImageData(0, 0, width, Math.floor(height / 2));
+  const columns = new Set();
+  for (let i = 3; i < data.length; i += 4) if (data[i] > 0) columns.add(((i - 3) / 4) % width);
+  return columns.size;
+}, chart);
 const finalHash = async ({ server }) => (await server.says(/final hash ([0-9a-f]{16})/))[1];
 
 test("a spectator sees the match, and ends with its hash", { skip }, () => live((match) => ["--token", match.backend.token("spectator")], async (page, match) => {
@@ -64,6 +73,11 @@ test("a person plays, says something, and saves a log that proves the match", { 
   await finished(page);
   const hash = await finalHash(match);
   assert.deepEqual(await state(), { tick: TICKS, hash });
+  // Wrong guesses about the bots: of each tick that was stepped again, some islands were computed and others remembered.
+  const again = await page.textContent("#live-islands-again");
+  const [computed, remembered] = /^(\d+) computed, (\d+) remembered$/.exec(again).slice(1).map(Number);
+  assert.ok(computed > 0 && remembered > 0, again);
+  for (const chart of ["chart-again", "chart-computed", "chart-recalled"]) assert.ok(await columnsAbove(page, chart) > 3, chart);
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#live-save")]);
   const log = join(scratch, "live.lks");
   await download.saveAs(log);

@@ -72,6 +72,10 @@ export interface ClientStats {
   substitutedInputs: number;
   rollbacks: number;
   ticksSteppedAgain: number;
+  /** In these ticks: islands that were computed again, */
+  islandsComputedAgain: number;
+  /** and islands whose results the history remembered. */
+  islandsRecalled: number;
   statesLoaded: number;
 }
 
@@ -269,7 +273,8 @@ export class Client {
       bytesSent: number(s.bytes_sent), bytesReceived: number(s.bytes_received), packetsSent: number(s.packets_sent),
       packetsReceived: number(s.packets_received), marginQuarters: heap.i32[(at + s.margin_quarters) >>> 2]!,
       substitutedInputs: number(s.substituted_inputs), rollbacks: number(s.rollbacks),
-      ticksSteppedAgain: number(s.ticks_stepped_again), statesLoaded: number(s.states_loaded),
+      ticksSteppedAgain: number(s.ticks_stepped_again), islandsComputedAgain: number(s.islands_computed_again),
+      islandsRecalled: number(s.islands_recalled), statesLoaded: number(s.states_loaded),
     };
   }
 

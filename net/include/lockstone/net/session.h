@@ -120,6 +120,9 @@ struct ClientStats {
   std::int64_t jitter_us = 0;        ///< of arriving ticks: the 99th percentile
   std::uint64_t rollbacks = 0;
   std::uint64_t ticks_stepped_again = 0;
+  /// In these ticks: as the simulation counts them (Simulation::island_work).
+  std::uint64_t islands_computed_again = 0;
+  std::uint64_t islands_recalled = 0;
   std::uint64_t states_loaded = 0;  ///< from the server
 };
 

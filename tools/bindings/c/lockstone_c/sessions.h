@@ -78,6 +78,8 @@ typedef struct lks_session_stats {
   uint64_t states_loaded;
   uint64_t commands_taken; /* of a server's player */
   uint64_t commands_refused;
+  uint64_t islands_computed_again; /* of a client, in the ticks that it stepped again */
+  uint64_t islands_recalled;       /* and those that its history remembered */
 } lks_session_stats;
 
 #ifdef __cplusplus

@@ -51,6 +51,7 @@ class FlippingSimulation final : public Simulation {
   }
   Status load(SnapshotKind kind, ByteView bytes) override { return inner_->load(kind, bytes); }
   void keep_history(std::uint32_t ticks) override { inner_->keep_history(ticks); }
+  [[nodiscard]] IslandWork island_work() const override { return inner_->island_work(); }
   void forget_history() override { inner_->forget_history(); }
   [[nodiscard]] std::uint64_t hash() const override { return inner_->hash(); }
   [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override {
