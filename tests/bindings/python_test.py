@@ -81,6 +81,10 @@ class Worlds(unittest.TestCase):
     def test_joints_and_hulls(self):
         assets = lockstone.Assets()
         hull = assets.add_hull([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+        self.assertEqual(assets.add_scaled(hull.asset, (1, 1, 1)), hull.asset)
+        self.assertNotEqual(assets.add_scaled(hull.asset, (2, "0.5", -1)), hull.asset)
+        with self.assertRaises(lockstone.LockstoneError):
+            assets.add_scaled(hull.asset, (1, 0, 1))
         rounded = assets.add_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], radius="0.1")
         self.assertNotEqual(rounded.asset, hull.asset)
         world = lockstone.World(body_capacity=4, assets=assets)

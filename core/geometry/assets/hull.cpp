@@ -369,6 +369,10 @@ Length Hull::radius() const {
   return geometry_of(*this).surface.radius;
 }
 
+Length Hull::tolerance() const {
+  return geometry_of(*this).tolerance;
+}
+
 std::span<const Vec3<Length>> Hull::vertices() const {
   return geometry_of(*this).vertices;
 }

@@ -76,6 +76,8 @@ class Hull final : public Asset {
 
   /// Of a rounded hull, else 0.
   [[nodiscard]] Length radius() const;
+  /// As the options said.
+  [[nodiscard]] Length tolerance() const;
   /// In ascending order of x, y, z.
   [[nodiscard]] std::span<const Vec3<Length>> vertices() const;
   [[nodiscard]] int face_count() const;

@@ -85,6 +85,9 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_assets_add_rounded_hull(NULL, &w, 1, 64, 1024, &number));
   NULLED(lks_assets_add_rounded_hull(assets, NULL, 1, 64, 1024, &number));
   NULLED(lks_assets_add_rounded_hull(assets, &w, 1, 64, 1024, NULL));
+  NULLED(lks_assets_add_scaled(NULL, 1, &w, &number));
+  NULLED(lks_assets_add_scaled(assets, 1, NULL, &number));
+  NULLED(lks_assets_add_scaled(assets, 1, &w, NULL));
   NULLED(lks_assets_add_bytes(NULL, text, 1, &number));
   NULLED(lks_assets_add_bytes(assets, NULL, 1, &number));
   NULLED(lks_assets_add_bytes(assets, text, 1, NULL));

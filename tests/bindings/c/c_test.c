@@ -295,7 +295,8 @@ static void hulls_are_built_from_points(void) {
   lks_body body = 0;
   lks_body_view view = {.size = sizeof view};
   lks_length3 corners[8];
-  uint64_t hull = 0;
+  lks_number3 factors = {lks_number_milli(2000), lks_number_milli(500), lks_number_milli(-1000)};
+  uint64_t hull = 0, slab = 0, same = 0;
   int i;
   for (i = 0; i < 8; ++i) {
     corners[i].x = lks_length_mm((i & 1) ? 500 : -500);
@@ -309,6 +310,16 @@ static void hulls_are_built_from_points(void) {
   REFUSED(LKS_NULL_ARGUMENT, lks_assets_add_hull(assets, NULL, 8, 64, &hull));
   CHECK(lks_assets_add_bytes(assets, "no asset", 8, &hull) != LKS_OK);
   OK(lks_assets_add_hull(assets, corners, 8, 64, &hull));
+  OK(lks_assets_add_scaled(assets, hull, &factors, &slab));
+  factors.z = 0;
+  REFUSED(LKS_INVALID_ARGUMENT, lks_assets_add_scaled(assets, hull, &factors, &same));
+  factors.z = lks_number_milli(1000000);
+  REFUSED(LKS_INVALID_ARGUMENT, lks_assets_add_scaled(assets, hull, &factors, &same));
+  factors.x = factors.y = factors.z = lks_number_milli(1000);
+  REFUSED(LKS_NOT_FOUND, lks_assets_add_scaled(assets, hull + 1, &factors, &same));
+  CHECK(same == 0);
+  OK(lks_assets_add_scaled(assets, hull, &factors, &same));
+  CHECK(same == hull && slab != hull);
   OK(lks_world_def_init(&def, sizeof def));
   OK(lks_world_create(&def, assets, &world));
   lks_assets_destroy(assets);
@@ -318,6 +329,10 @@ static void hulls_are_built_from_points(void) {
   OK(lks_body_get(world, body, &view));
   CHECK(view.shape.kind == LKS_HULL && view.shape.asset == hull);
   CHECK(llabs(view.mass - ((int64_t)1000 << LKS_MASS_BITS)) < 8000); /* 1 m³ of 1000 kg/m³ */
+  body_def.shape = lks_hull(slab);
+  OK(lks_create_body(world, &body_def, &body));
+  OK(lks_body_get(world, body, &view));
+  CHECK(llabs(view.mass - ((int64_t)1000 << LKS_MASS_BITS)) < 8000); /* 2 m by 0.5 m by 1 m */
   body_def.shape = lks_hull(hull + 1);
   REFUSED(LKS_NOT_FOUND, lks_create_body(world, &body_def, &body));
   lks_world_destroy(world);

@@ -157,6 +157,9 @@ static class SessionTest
         {
             plain = assets.AddHull(corners);
             round = assets.AddHull(corners, 64, Units.LengthMm(100));
+            int one = Units.NumberMilli(1000);
+            Expect(assets.AddScaled(round, Units.Vec32(one, one, one)).asset == round.asset, "a copy of the same size");
+            Expect(assets.AddScaled(plain, Units.Vec32(one, 2 * one, -one)).asset != plain.asset, "a scaled copy");
             world = new World(Defaults.World(), assets);
         }
         Expect(plain.kind == Native.LKS_HULL && plain.asset != round.asset, "two hulls");
@@ -166,8 +169,41 @@ static class SessionTest
         world.Dispose();
     }
 
+    static void FindInBox()
+    {
+        using (var world = new World(Defaults.World()))
+        {
+            lks_body_def ball = Defaults.Body();
+            ball.shape = Shape.Sphere(Units.LengthMm(250));
+            var names = new ulong[3];
+            for (int i = 0; i < 3; ++i)
+            {
+                ball.position = Units.Vec64(Units.PositionMm(1000 * i), 0, 0);
+                names[i] = world.CreateBody(ball);
+            }
+            lks_i64x3 lower = Units.Vec64(Units.PositionMm(-100), Units.PositionMm(-100), Units.PositionMm(-100));
+            lks_i64x3 upper = Units.Vec64(Units.PositionMm(1100), Units.PositionMm(100), Units.PositionMm(100));
+            var found = new ulong[4];
+            lks_query_filter filter = Defaults.Filter();
+            Expect(world.BodiesInBox(lower, upper, filter, found) == 2 && found[0] == names[0] && found[1] == names[1], "two of three balls");
+            filter.ignore = names[0];
+            Expect(world.BodiesInBox(lower, upper, filter, found) == 1 && found[0] == names[1], "without the first");
+            Expect(world.BodiesInBox(lower, upper, Defaults.Filter(), new Span<ulong>(found, 0, 1)) == 1 && found[0] == names[0], "as many as fit");
+            try
+            {
+                world.BodiesInBox(upper, lower, filter, found);
+                Expect(false, "a box turned round is refused");
+            }
+            catch (LockstoneException error)
+            {
+                Expect(error.Message.Contains("lower"), error.Message);
+            }
+        }
+    }
+
     static int Main()
     {
+        FindInBox();
         GameLibrary game = Pushers.MakeLibrary();
         PlayMatch(game);
         ShowMatch(game);

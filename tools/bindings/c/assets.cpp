@@ -6,6 +6,7 @@
 #include <lockstone/hull.h>
 #include <lockstone/load_asset.h>
 #include <lockstone/path.h>
+#include <lockstone/scaled_asset.h>
 #include <lockstone/shape_pair.h>
 
 #include "tools/bindings/c/convert.h"
@@ -63,6 +64,26 @@ ShapeAt shape_at(const lks_assets* assets, const lks_placed_shape* raw, std::str
   if (assets == nullptr) throw_status(LKS_NOT_FOUND, "the set has no such asset");
   at.asset = &asset_of(*assets, at.shape.asset);
   return at;
+}
+
+AssetPtr scaled_copy(const Asset& asset, const Vec3<Number>& factors) {
+  const auto of = [](const auto& copy, const auto& result) -> AssetPtr {
+    if (!result.ok()) throw_invalid("factors", to_string(result.fault));
+    return copy;
+  };
+  if (asset.kind() == ShapeKind::hull) {
+    const HullResult copy = scaled(static_cast<const Hull&>(asset), factors);
+    return of(copy.hull, copy);
+  }
+  if (asset.kind() == ShapeKind::mesh) {
+    const MeshResult copy = scaled(static_cast<const Mesh&>(asset), factors);
+    return of(copy.mesh, copy);
+  }
+  if (asset.kind() == ShapeKind::height_field) {
+    const HeightFieldResult copy = scaled(static_cast<const HeightField&>(asset), factors);
+    return of(copy.height_field, copy);
+  }
+  throw_invalid("asset", "is no hull, mesh or height field");
 }
 
 template <class Found>
@@ -199,5 +220,17 @@ lks_status lks_assets_add_bytes(lks_assets* assets, const void* bytes, size_t co
     AssetPtr asset = value_of(load_asset({data, count}, AssetSet(assets->list)));
     *out = asset->id().value;
     assets->list.push_back(std::move(asset));
+  });
+}
+
+lks_status lks_assets_add_scaled(lks_assets* assets, uint64_t asset, const lks_number3* factors,
+                                 uint64_t* out) {
+  return call([&] {
+    lks_assets& set = required(assets, "assets");
+    required(out, "out");
+    const auto by = vec<Number>(required(factors, "factors"));
+    AssetPtr copy = scaled_copy(asset_of(set, AssetId{asset}), by);
+    *out = copy->id().value;
+    set.list.push_back(std::move(copy));
   });
 }

@@ -201,7 +201,7 @@ export const lks_recorder_def = { $bytes: 168, size: 0, keyframe_interval_ticks:
 export const lks_enet_def = { $bytes: 32, size: 0, port: 4, max_connections: 8, max_connections_per_address: 12, unlimited: 16, timeout_ms: 20, match_id: 24 } as const;
 export const lks_link_faults = { $bytes: 32, size: 0, loss_ppm: 4, duplicate_ppm: 8, reorder_ppm: 12, delay_us: 16, jitter_us: 24 } as const;
 export const lks_session_event = { $bytes: 48, kind: 0, slot: 4, tick: 8, hash: 16, other_hash: 24, value: 32, reason: 40, reserved: 44 } as const;
-export const lks_session_stats = { $bytes: 120, size: 0, margin_quarters: 4, bytes_sent: 8, bytes_received: 16, packets_sent: 24, packets_received: 32, round_trip_us: 40, substituted_inputs: 48, malformed_packets: 56, hashes_compared: 64, hashes_equal: 72, rollbacks: 80, ticks_stepped_again: 88, states_loaded: 96, commands_taken: 104, commands_refused: 112 } as const;
+export const lks_session_stats = { $bytes: 136, size: 0, margin_quarters: 4, bytes_sent: 8, bytes_received: 16, packets_sent: 24, packets_received: 32, round_trip_us: 40, substituted_inputs: 48, malformed_packets: 56, hashes_compared: 64, hashes_equal: 72, rollbacks: 80, ticks_stepped_again: 88, states_loaded: 96, commands_taken: 104, commands_refused: 112, islands_computed_again: 120, islands_recalled: 128 } as const;
 export const lks_client_def = { $bytes: 176, size: 0, insecure: 4, wanted_slot: 8, prediction_ticks: 12, prediction_delay_ticks: 16, sync_test: 20, history_ticks: 24, snapshot_ticks: 28, adapt_lead: 32, play_out_evenly: 36, rejoin_key: 40, handshake_us: 48, drop_us: 56, name: 64, build: 104 } as const;
 export const lks_client_view = { $bytes: 64, size: 0, state: 4, ticks_stepped: 8, ticks_predicted: 16, rejoin_key: 24, slot: 32, finish_reason: 36, may_reconnect: 40, paused: 44, waiting_mask: 48, reserved: 52, waiting: 56 } as const;
 export const lks_web_poses_at = { $bytes: 12, bodies: 0, positions: 4, orientations: 8 } as const;
@@ -228,6 +228,7 @@ export interface Functions {
   lks_assets_add_banked_path(assets: number, points: number, banks: number, count: number, closed: number, out: number): number;
   lks_assets_add_rounded_hull(assets: number, points: number, count: number, max_vertices: number, radius: number, out: number): number;
   lks_assets_add_bytes(assets: number, bytes: number, count: number, out: number): number;
+  lks_assets_add_scaled(assets: number, asset: bigint, factors: number, out: number): number;
   lks_shape_distance(assets: number, a: number, b: number, reach: number, out: number): number;
   lks_shape_cast(assets: number, a: number, b: number, way: number, out: number): number;
   lks_shape_impact(assets: number, a: number, end_a: number, b: number, end_b: number, gap: number, out: number): number;

@@ -118,6 +118,16 @@ export class Assets {
     });
   }
 
+  /** A hull, mesh or height field of the set scaled along its axes: built once, rounded to 2^-20 m. Negative factors mirror. */
+  addScaled(shape: Shape, factors: Vector): Shape {
+    const { heap } = this.lockstone;
+    const asset = this.add(c.lks_i32x3.$bytes, (at) => {
+      heap.putVector32(at, factors, c.LKS_NUMBER_BITS);
+      return heap.f.lks_assets_add_scaled(this.address, shape.asset, at, heap.output);
+    });
+    return { ...shape, asset };
+  }
+
   /** An asset of any kind from its bytes, as `lockstone asset build` writes them; its name, for `assetShape`. */
   addBytes(bytes: Uint8Array): bigint {
     const { heap } = this.lockstone;

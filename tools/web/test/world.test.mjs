@@ -133,6 +133,10 @@ test("queries see the bodies", () => {
   assert.ok(full.castShape(world, full.box(1, 1, 1), [0, 20, 0], [0, -30, 0])?.body.equals(ball));
   assert.deepEqual(full.overlapSphere(world, [0, 10, 0], 1).map(({ id }) => id), [ball.id]);
   assert.deepEqual(full.overlapShape(world, full.box(1, 1, 1), [0, 10, 0]).map(({ id }) => id), [ball.id]);
+  assert.deepEqual(full.bodiesInBox(world, [-1, 9, -1], [1, 9.7501, 1]).map(({ id }) => id), []);
+  assert.deepEqual(full.bodiesInBox(world, [-1, 9, -1], [1, 9.751, 1]).map(({ id }) => id), [ball.id]);
+  assert.deepEqual(full.bodiesInBox(world, [-1, 9, -1], [1, 11, 1], { ignore: ball }), []);
+  assert.throws(() => full.bodiesInBox(world, [0, 1, 0], [1, 0, 1]), /lower: must not be above/);
   const closest = full.closestPoint(world, [0, 11, 0], 5);
   assert.ok(closest?.body.equals(ball) && Math.abs(closest.distance - 0.75) < 1e-4);
 });
@@ -218,12 +222,41 @@ test("hulls are assets of a world", () => {
   const assets = new full.Assets(lockstone);
   const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1]);
   const cube = assets.addHull(corners);
+  const slab = assets.addScaled(cube, [2, "0.25", -1]);
+  assert.equal(assets.addScaled(cube, [1, 1, 1]).asset, cube.asset);
+  assert.throws(() => assets.addScaled(cube, [1, 0, 1]), /factors: /);
   const world = new full.World(lockstone, { bodyCapacity: 8, assets });
   world.createBody({ shape: full.halfSpace(), motion: Motion.static });
   const body = world.createBody({ shape: cube, position: [0, 3, 0] });
+  const flat = world.createBody({ shape: slab, position: [9, 3, 0] });
   world.step(120);
   assert.ok(Math.abs(body.position[1] - 1) < 0.01);
+  assert.ok(Math.abs(flat.position[1] - 0.25) < 0.01);
   assert.notEqual(full.configHash(lockstone, {}, assets), full.configHash(lockstone, {}));
+});
+
+test("two shapes are compared without a world", () => {
+  const a = { shape: full.sphere("0.5"), position: [0, 0, 0] }, b = { shape: full.box(1, 1, 1), position: [0, 4, 0] };
+  const gap = full.shapeDistance(whole, a, b);
+  assert.ok(Math.abs(gap.distance - 2.5) < 2e-6 && !gap.overlapping);
+  assert.deepEqual([...gap.normal, ...gap.pointA, ...gap.pointB].map((x) => Math.round(1000 * x) / 1000), [0, 1, 0, 0, 0.5, 0, 0, 3, 0]);
+  assert.equal(full.shapeDistance(whole, a, b, 2), null);
+  assert.equal(full.shapeDistance(whole, a, { ...b, position: [0, 1, 0] }).overlapping, true);
+  const hit = full.shapeCast(whole, a, b, [0, -5, 0]);
+  assert.ok(Math.abs(hit.fraction - 0.5) < 1e-6 && Math.abs(hit.point[1] - 0.5) < 2e-6);
+  assert.equal(full.shapeCast(whole, a, b, [0, 5, 0]), null);
+  const turned = { position: [0, 2, 0], orientation: [0, 0, Math.SQRT1_2, Math.SQRT1_2] };
+  const impact = full.shapeImpact(whole, a, a, b, turned, 0.001);
+  assert.ok(impact.fraction > 0.9 && impact.fraction < 1 && !impact.overlapping, `${impact.fraction}`);
+  assert.equal(full.shapeImpact(whole, a, a, b, { position: [0, 8, 0] }), null);
+
+  const assets = new full.Assets(whole);
+  const cube = assets.addHull([0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1]));
+  const placed = { shape: cube, position: [0, 4, 0] };
+  assert.ok(Math.abs(full.shapeDistance(whole, a, placed, 512, assets).distance - 2.5) < 2e-6);
+  assert.throws(() => full.shapeDistance(whole, a, placed), /the set has no such asset/);
+  assert.throws(() => full.shapeDistance(whole, a, { ...b, position: [0, 2000, 0] }), /out of range/);
+  assert.throws(() => full.shapeDistance(lockstone, a, b), /needs the module of loadFull/);
 });
 
 test("a saved state is loaded in another world, and a snapshot in its own", () => {

@@ -122,6 +122,15 @@ LKS_API lks_status lks_assets_add_rounded_hull(lks_assets* assets, const lks_len
 LKS_API lks_status lks_assets_add_bytes(lks_assets* assets, const void* bytes, size_t count,
                                         uint64_t* out);
 
+/* Adds a hull, mesh or height field of the set scaled along its axes: each coordinate times the
+ * factor of its axis, rounded to the nearest step. No factor is 0; a negative one mirrors, and
+ * fronts of triangles stay fronts; those of a height field are above 0, and those of a hull with a
+ * radius of one size, which scales the radius too. With all factors 1, `out` is `asset`.
+ * LKS_NOT_FOUND for an asset that is not in the set; LKS_INVALID_ARGUMENT for one of another kind,
+ * and says why there is no such copy. */
+LKS_API lks_status lks_assets_add_scaled(lks_assets* assets, uint64_t asset,
+                                         const lks_number3* factors, uint64_t* out);
+
 /* Two shapes without a world. A call takes their assets from the set, which may be null where no
  * shape names one. LKS_INVALID_ARGUMENT for a shape or place out of range, for frames more than
  * 1000 m apart along an axis (the plane of a half-space as far), and for a pair that the function

@@ -66,6 +66,7 @@ typedef lks_i64x3 lks_force3;
 typedef lks_i32x3 lks_length3;
 typedef lks_i32x3 lks_speed3;
 typedef lks_i32x3 lks_unit3;
+typedef lks_i32x3 lks_number3;
 typedef lks_i32x3 lks_rate3;
 typedef lks_i32x3 lks_angle3;
 

@@ -143,6 +143,7 @@ _CALLS = {
     "lks_part_hashes": [_WORLD, c_void_p],
     "lks_describe_difference": [_WORLD, c_char_p, c_size_t, c_char_p, c_size_t, _FLAG, c_void_p, c_size_t],
     "lks_assets_create": [POINTER(c_void_p)],
+    "lks_assets_add_scaled": [c_void_p, c_uint64, POINTER(I32x3), _NUMBER],
     "lks_assets_add_hull": [c_void_p, POINTER(I32x3), c_size_t, c_int32, _NUMBER],
     "lks_assets_add_path": [c_void_p, c_void_p, c_size_t, c_uint32, _NUMBER],
     "lks_assets_add_banked_path": [c_void_p, c_void_p, c_void_p, c_size_t, c_uint32, _NUMBER],

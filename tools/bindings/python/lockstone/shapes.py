@@ -77,6 +77,13 @@ class Assets:
                                         _length(radius), ctypes.byref(asset))
         return Shape(3, I32x3(0, 0, 0), asset.value)
 
+    def add_scaled(self, asset: int, factors: Vector) -> int:
+        """A hull, mesh or height field of the set scaled along its axes; its name. Negative factors mirror."""
+        name = ctypes.c_uint64()
+        lib.lks_assets_add_scaled(self.handle, asset, I32x3(*(units.raw(factor, units.NUMBER, 32) for factor in factors)),
+                                  ctypes.byref(name))
+        return name.value
+
     def add_path(self, points: Iterable[Tuple[Vector, Vector]], closed: bool = False,
                  banks: Iterable[Quantity] = ()) -> int:
         """A smooth curve through 2 … 4096 points, each with the direction up there; its name, for path joints.

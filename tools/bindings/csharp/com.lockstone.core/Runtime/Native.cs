@@ -634,6 +634,8 @@ namespace Lockstone.Interop
         public ulong states_loaded;
         public ulong commands_taken;
         public ulong commands_refused;
+        public ulong islands_computed_again;
+        public ulong islands_recalled;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1192,6 +1194,9 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_bytes(IntPtr assets, void* bytes, UIntPtr count, ulong* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_assets_add_scaled(IntPtr assets, ulong asset, lks_i32x3* factors, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_shape_distance(IntPtr assets, lks_placed_shape* a, lks_placed_shape* b, int reach, lks_shape_gap* @out);

@@ -81,6 +81,14 @@ namespace Lockstone
             }
             return Shape.Asset(Native.LKS_HULL, name);
         }
+
+        /// <summary>A hull, mesh or height field of the set scaled along its axes. Negative factors mirror.</summary>
+        public lks_shape AddScaled(lks_shape shape, lks_i32x3 factors)
+        {
+            ulong name;
+            Call.Check(Native.lks_assets_add_scaled(Pointer, shape.asset, &factors, &name));
+            return Shape.Asset(shape.kind, name);
+        }
     }
 
     /// <summary>A world of bodies and joints, written by commands alone. A body or joint is named by a ulong.</summary>
@@ -318,6 +326,18 @@ namespace Lockstone
             lks_hit hit;
             Call.Check(Native.lks_cast_ray(Pointer, &origin, &way, &filter, &hit));
             return hit;
+        }
+
+        /// <summary>Fills the bodies whose bounds along the world's axes overlap a box, by ascending index, without a look
+        /// at their shapes; returns how many were written. No coordinate of lower may be above that of upper.</summary>
+        public int BodiesInBox(lks_i64x3 lower, lks_i64x3 upper, lks_query_filter filter, Span<ulong> bodies)
+        {
+            UIntPtr count;
+            fixed (ulong* p = &MemoryMarshal.GetReference(bodies))
+            {
+                Call.Check(Native.lks_bodies_in_box(Pointer, &lower, &upper, &filter, p, (UIntPtr)bodies.Length, &count));
+            }
+            return (int)count;
         }
 
         public int SnapshotBytesMax(Snapshot kind)

@@ -35,6 +35,7 @@ pub type lks_force3 = lks_i64x3;
 pub type lks_length3 = lks_i32x3;
 pub type lks_speed3 = lks_i32x3;
 pub type lks_unit3 = lks_i32x3;
+pub type lks_number3 = lks_i32x3;
 pub type lks_rate3 = lks_i32x3;
 pub type lks_angle3 = lks_i32x3;
 
@@ -791,6 +792,8 @@ pub struct lks_session_stats {
     pub states_loaded: u64,
     pub commands_taken: u64,
     pub commands_refused: u64,
+    pub islands_computed_again: u64,
+    pub islands_recalled: u64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1069,6 +1072,7 @@ extern "C" {
     pub fn lks_assets_add_banked_path(assets: *mut lks_assets, points: *const lks_path_point, banks: *const lks_angle, count: usize, closed: u32, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_rounded_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, radius: lks_length, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_bytes(assets: *mut lks_assets, bytes: *const c_void, count: usize, out: *mut u64) -> lks_status;
+    pub fn lks_assets_add_scaled(assets: *mut lks_assets, asset: u64, factors: *const lks_number3, out: *mut u64) -> lks_status;
     pub fn lks_shape_distance(assets: *const lks_assets, a: *const lks_placed_shape, b: *const lks_placed_shape, reach: lks_length, out: *mut lks_shape_gap) -> lks_status;
     pub fn lks_shape_cast(assets: *const lks_assets, a: *const lks_placed_shape, b: *const lks_placed_shape, way: *const lks_length3, out: *mut lks_shape_hit) -> lks_status;
     pub fn lks_shape_impact(assets: *const lks_assets, a: *const lks_placed_shape, end_a: *const lks_pose, b: *const lks_placed_shape, end_b: *const lks_pose, gap: lks_length, out: *mut lks_shape_hit) -> lks_status;

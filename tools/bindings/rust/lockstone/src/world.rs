@@ -159,6 +159,12 @@ impl Assets {
         })?;
         Ok(name)
     }
+    /// Adds a hull, mesh or height field of the set scaled along its axes; returns its name. Negative factors mirror.
+    pub fn add_scaled(&mut self, asset: u64, factors: lks_i32x3) -> Result<u64> {
+        let mut name = 0;
+        check(unsafe { sys::lks_assets_add_scaled(self.0, asset, &factors, &mut name) })?;
+        Ok(name)
+    }
     /// Adds an asset from its canonical bytes.
     pub fn add_bytes(&mut self, bytes: &[u8]) -> Result<u64> {
         let mut name = 0;
