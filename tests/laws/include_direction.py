@@ -43,7 +43,7 @@ PUBLIC_MODULES = {
     "math": ["decimal.h", "fixed.h", "game_math.h", "literals.h", "quat.h", "random.h", "roots.h", "rotation.h",
              "transform.h", "trigonometry.h", "units.h", "vec3.h", "vector_math.h"],
     "geometry": ["asset.h", "compound.h", "fit.h", "height_field.h", "hull.h", "load_asset.h", "material.h",
-                 "mesh.h", "path.h", "shape.h"],
+                 "mesh.h", "path.h", "scaled_asset.h", "shape.h"],
     "collision": ["collision.h"],
     "dynamics": ["body.h", "fluid.h", "joint.h", "rules.h", "terrain.h", "vehicle.h"],
     "world": ["character.h", "command.h", "contacts.h", "debug_draw.h", "drag.h", "event.h", "predicted_events.h", "profile.h", "query.h", "radial_impulse.h", "ragdoll.h", "rollback_history.h", "shape_pair.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],

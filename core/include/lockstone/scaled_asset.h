@@ -24,7 +24,7 @@ namespace lockstone {
 /// No factor may be 0 (invalid_option); a negative one mirrors. The fronts of the triangles stay on
 /// the side where they were: an odd number of negative factors turns their winding round. Vertices
 /// that rounding brings together are welded, and triangles without area dropped, and counted. Parts
-/// are numbered anew; surfaces, groups and the flat angle stay.
+/// get new numbers; surfaces, groups and the flat angle stay.
 [[nodiscard]] MeshResult scaled(const Mesh& mesh, const Vec3<Number>& factors);
 
 /// All factors are above 0, else invalid_option: a mirrored cell would be split along its other

@@ -27,7 +27,7 @@ type ViewName = keyof typeof VIEWS;
 
 // Events after which the picture may be another one.
 const STIRRING = ["pointerdown", "pointermove", "pointerup", "wheel", "keydown", "input", "change", "click", "resize"];
-const SETTLE_MS = 150; // between a frame drawn after one and the next, which has what the first one's figures changed
+const SETTLE_MS = 150; // between a frame drawn after one and the next, which shows the changes that the first one's figures made
 const IDLE_MS = 500; // between frames later on
 
 let mode: Mode | null = null;
