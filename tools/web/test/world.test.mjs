@@ -133,8 +133,8 @@ test("queries see the bodies", () => {
   assert.ok(full.castShape(world, full.box(1, 1, 1), [0, 20, 0], [0, -30, 0])?.body.equals(ball));
   assert.deepEqual(full.overlapSphere(world, [0, 10, 0], 1).map(({ id }) => id), [ball.id]);
   assert.deepEqual(full.overlapShape(world, full.box(1, 1, 1), [0, 10, 0]).map(({ id }) => id), [ball.id]);
-  assert.deepEqual(full.bodiesInBox(world, [-1, 9, -1], [1, 9.7501, 1]).map(({ id }) => id), []);
-  assert.deepEqual(full.bodiesInBox(world, [-1, 9, -1], [1, 9.751, 1]).map(({ id }) => id), [ball.id]);
+  assert.deepEqual(full.bodiesInBox(world, [-1, 9, -1], [1, 9.7499, 1]).map(({ id }) => id), []);
+  assert.deepEqual(full.bodiesInBox(world, [-1, 9, -1], [1, 9.7501, 1]).map(({ id }) => id), [ball.id]);
   assert.deepEqual(full.bodiesInBox(world, [-1, 9, -1], [1, 11, 1], { ignore: ball }), []);
   assert.throws(() => full.bodiesInBox(world, [0, 1, 0], [1, 0, 1]), /lower: must not be above/);
   const closest = full.closestPoint(world, [0, 11, 0], 5);
@@ -245,9 +245,9 @@ test("two shapes are compared without a world", () => {
   const hit = full.shapeCast(whole, a, b, [0, -5, 0]);
   assert.ok(Math.abs(hit.fraction - 0.5) < 1e-6 && Math.abs(hit.point[1] - 0.5) < 2e-6);
   assert.equal(full.shapeCast(whole, a, b, [0, 5, 0]), null);
-  const turned = { position: [0, 2, 0], orientation: [0, 0, Math.SQRT1_2, Math.SQRT1_2] };
+  const turned = { position: [0, 1.4, 0], orientation: [0, 0, Math.SQRT1_2, Math.SQRT1_2] };
   const impact = full.shapeImpact(whole, a, a, b, turned, 0.001);
-  assert.ok(impact.fraction > 0.9 && impact.fraction < 1 && !impact.overlapping, `${impact.fraction}`);
+  assert.ok(impact.fraction > 0.5 && impact.fraction < 1 && !impact.overlapping, `${impact.fraction}`);
   assert.equal(full.shapeImpact(whole, a, a, b, { position: [0, 8, 0] }), null);
 
   const assets = new full.Assets(whole);
