@@ -67,6 +67,14 @@ TEST(Validate, AcceptsTheBoundsAndNothingBeyond) {
   EXPECT_EQ(validate(Shape::capsule({}, high)), Status::invalid_argument);
   EXPECT_EQ(validate(Shape::box(low, high, low)), Status::ok);
   EXPECT_EQ(validate(Shape::box(low, high, -low)), Status::invalid_argument);
+  const Length thin = Length::from_ratio(1, 10'000);
+  EXPECT_EQ(thin, k_min_box_extent);
+  EXPECT_EQ(validate(Shape::box(low, thin, thin)), Status::ok);
+  EXPECT_EQ(validate(Shape::box(thin, thin, high)), Status::ok);
+  EXPECT_EQ(validate(Shape::box(high, thin - step, high)), Status::invalid_argument);
+  EXPECT_EQ(validate(Shape::box(thin, low - step, thin)), Status::invalid_argument);
+  EXPECT_EQ(validate(Shape::rounded_box(high - low, thin, low, low)), Status::invalid_argument);
+  EXPECT_EQ(validate(Shape::cylinder(thin, high)), Status::invalid_argument);
   EXPECT_EQ(validate({ShapeKind::sphere, {low, low, {}}, {}}), Status::invalid_argument);
   EXPECT_EQ(validate({static_cast<ShapeKind>(7), {low, low, low}}), Status::invalid_argument);
 }

@@ -7,8 +7,8 @@
 namespace lockstone {
 namespace {
 
-constexpr bool is_size(Length x) {
-  return x >= k_min_shape_size && x <= k_max_shape_size;
+constexpr bool is_size(Length x, Length least) {
+  return x >= least && x <= k_max_shape_size;
 }
 
 }  // namespace
@@ -20,13 +20,14 @@ Status validate(const Shape& shape) {
   if (traits == nullptr && is_primitive(shape.kind)) return Status::invalid_argument;
   const int used = traits == nullptr ? 0 : std::min(traits->size_count, 3);
   for (int i = 0; i < 3; ++i) {
-    const bool good = i < used ? is_size(shape.size[i]) : shape.size[i] == Length{};
+    const Length size = shape.size[i];
+    const bool good = i < used ? is_size(size, least_size(shape)) : size == Length{};
     if (!good) return Status::invalid_argument;
   }
   if (!has_fourth_size(shape.kind)) return Status::ok;
   const Length most = k_max_shape_size - max(max(shape.size.x, shape.size.y), shape.size.z);
   const Length fourth = shape.fourth_size();
-  if (!is_size(fourth) || fourth > most) return Status::invalid_argument;
+  if (!is_size(fourth, k_min_shape_size) || fourth > most) return Status::invalid_argument;
   return Status::ok;
 }
 

@@ -55,6 +55,8 @@ struct AssetId {
 /// Bounds on every shape dimension (radius, half height, half extent).
 inline constexpr Length k_min_shape_size = Length::from_raw(1 << 10);  // 0.98 mm
 inline constexpr Length k_max_shape_size = Length::from_integer(512);
+/// Half extents of a thin box: one whose largest half extent is at least k_min_shape_size.
+inline constexpr Length k_min_box_extent = Length::from_raw(105);  // 0.1 mm
 
 /// The shape of a body. `size` means, by kind:
 ///   sphere:  x = radius
@@ -120,7 +122,15 @@ struct Shape {
 /// Links every kind: for programs that load shapes that others made. Returns true.
 bool link_all_shapes();
 
-/// ok, or invalid_argument when a dimension lies outside [k_min_shape_size, k_max_shape_size], a
+/// The least dimension that such a shape may have: k_min_shape_size, or k_min_box_extent.
+[[nodiscard]] constexpr Length least_size(const Shape& shape) {
+  const Vec3<Length>& size = shape.size;
+  const bool is_wide =
+      size.x >= k_min_shape_size || size.y >= k_min_shape_size || size.z >= k_min_shape_size;
+  return shape.kind == ShapeKind::box && is_wide ? k_min_box_extent : k_min_shape_size;
+}
+
+/// ok, or invalid_argument when a dimension lies outside [least_size(shape), k_max_shape_size], a
 /// rounded box reaches farther than k_max_shape_size along an axis, or
 /// an asset is named where none belongs or missing where one does, or the program does not link the
 /// kind.

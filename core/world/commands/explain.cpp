@@ -30,7 +30,8 @@ void check_sizes(RefusalFinder& find, const Shape& shape) {
   for (int i = 0; i < 3; ++i) {
     if (i < used) {
       const std::string_view name = traits->size_names[static_cast<std::size_t>(i)];
-      find.within(joined({"shape.", name}), shape.size[i], k_min_shape_size, k_max_shape_size, "m");
+      find.within(joined({"shape.", name}), shape.size[i], least_size(shape), k_max_shape_size,
+                  "m");
     } else {
       const std::string_view axis = std::string_view("xyz").substr(static_cast<std::size_t>(i), 1);
       find.require(shape.size[i] == Length{}, joined({"shape.size.", axis}),

@@ -29,7 +29,8 @@ enum {
  * capsule: the hull of two balls on the y axis, x = radius of the lower one, y = distance of their
  * centres, z = radius of the upper one, the origin at its centre of mass; rounded box: half extents
  * of the box that its radius surrounds, which with the radius are at most 512 m; others: zero.
- * Sizes are 0.98 mm … 512 m. */
+ * Sizes are 0.98 mm … 512 m; a box with one half extent of 0.98 mm or more may have others from 0.1
+ * mm. */
 typedef struct lks_shape {
   uint32_t kind;
   lks_length3 size;
