@@ -51,6 +51,21 @@ TEST(Rollback, RunsAheadByNoMoreThanItMay) {
   match.expect_all_equal();
 }
 
+// A second client in the place of player 1, 50 ms away.
+std::unique_ptr<Client> far_client(Match& match, const MatchOptions& options,
+                                   SimulationFactory factory, InputPredictor* predictor) {
+  SimTransport& transport = match.network.add_endpoint();
+  ClientConfig config = options.client;
+  config.insecure = true;
+  ClientParts parts;
+  parts.transport = &transport;
+  parts.connection = match.network.connect(transport, match.server_transport, {.delay_us = 50'000});
+  parts.factory = std::move(factory);
+  parts.inputs = match.players[1].inputs.get();
+  parts.predictor = predictor;
+  return std::move(Client::create(config, std::move(parts)).client);
+}
+
 TEST(Rollback, AsksThePredictorForOthersAlone) {
   class Zeros final : public InputPredictor {
    public:
@@ -66,16 +81,7 @@ TEST(Rollback, AsksThePredictorForOthersAlone) {
   options.server.start_players = 1;
   Match match(options);
   match.players[1].paused = true;
-  SimTransport& transport = match.network.add_endpoint();
-  ClientConfig config = options.client;
-  config.insecure = true;
-  ClientParts parts;
-  parts.transport = &transport;
-  parts.connection = match.network.connect(transport, match.server_transport, {.delay_us = 50'000});
-  parts.factory = toy::toy_factory();
-  parts.inputs = match.players[1].inputs.get();
-  parts.predictor = &zeros;
-  const auto client = std::move(Client::create(config, std::move(parts)).client);
+  const auto client = far_client(match, options, toy::toy_factory(), &zeros);
   for (int i = 0; i < 500; ++i) {
     client->update(match.now_us);
     match.step();
@@ -97,15 +103,7 @@ TEST(Rollback, CountsTheIslandsOfTicksThatAreSteppedAgain) {
   options.server.start_players = 1;
   Match match(options);
   match.players[1].paused = true;
-  SimTransport& transport = match.network.add_endpoint();
-  ClientConfig config = options.client;
-  config.insecure = true;
-  ClientParts parts;
-  parts.transport = &transport;
-  parts.connection = match.network.connect(transport, match.server_transport, {.delay_us = 50'000});
-  parts.factory = toy::toy_factory<CountingToy>();
-  parts.inputs = match.players[1].inputs.get();
-  const auto client = std::move(Client::create(config, std::move(parts)).client);
+  const auto client = far_client(match, options, toy::toy_factory<CountingToy>(), nullptr);
   for (int i = 0; i < 1000; ++i) {
     client->update(match.now_us);
     match.step();
@@ -115,7 +113,8 @@ TEST(Rollback, CountsTheIslandsOfTicksThatAreSteppedAgain) {
   EXPECT_GT(client->ticks_stepped(), stats.islands_computed_again / 8);
   // All but the last rollback's ticks were stepped again, and no tick that was new.
   EXPECT_LE(stats.islands_computed_again, stats.ticks_stepped_again);
-  EXPECT_GE(stats.islands_computed_again + config.prediction_ticks, stats.ticks_stepped_again);
+  EXPECT_GE(stats.islands_computed_again + options.client.prediction_ticks,
+            stats.ticks_stepped_again);
   EXPECT_EQ(stats.islands_recalled, 2 * stats.islands_computed_again);
 }
 

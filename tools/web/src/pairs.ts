@@ -64,6 +64,12 @@ function putPlaced(heap: Heap, at: number, placed: PlacedShape): number {
   return at;
 }
 
+/** Writes the shapes for a function that the module must have. */
+function putPair(heap: Heap, name: Parameters<Heap["needs"]>[0], a: PlacedShape, b: PlacedShape): [a: number, b: number] {
+  heap.needs(name);
+  return [putPlaced(heap, heap.input + A, a), putPlaced(heap, heap.input + B, b)];
+}
+
 function hitOf(heap: Heap): ShapeHit | null {
   const at = heap.output, hit = c.lks_shape_hit;
   if (heap.getWord(at + hit.hit) === 0) return null;
@@ -82,8 +88,7 @@ function hitOf(heap: Heap): ShapeHit | null {
  * farther apart than `reach`, 0 … 512 m. Error at most 2 µm. `assets` has those that the shapes name.
  */
 export function shapeDistance({ heap }: Lockstone, a: PlacedShape, b: PlacedShape, reach: Quantity = 512, assets?: Assets): ShapeGap | null {
-  heap.needs("lks_shape_distance");
-  const [first, second] = [putPlaced(heap, heap.input + A, a), putPlaced(heap, heap.input + B, b)];
+  const [first, second] = putPair(heap, "lks_shape_distance", a, b);
   const most = raw32(reach, c.LKS_LENGTH_BITS);
   heap.check(heap.f.lks_shape_distance(assets?.address ?? 0, first, second, most, heap.output));
   const at = heap.output, gap = c.lks_shape_gap;
@@ -101,8 +106,7 @@ export function shapeDistance({ heap }: Lockstone, a: PlacedShape, b: PlacedShap
 
 /** Moves B, a primitive or a hull, along `way`, at most 512 m along each axis, without turning; A rests. Null where they do not meet. */
 export function shapeCast({ heap }: Lockstone, a: PlacedShape, b: PlacedShape, way: Vector, assets?: Assets): ShapeHit | null {
-  heap.needs("lks_shape_cast");
-  const [first, second] = [putPlaced(heap, heap.input + A, a), putPlaced(heap, heap.input + B, b)];
+  const [first, second] = putPair(heap, "lks_shape_cast", a, b);
   heap.putVector32(heap.input + WAY, way, c.LKS_LENGTH_BITS);
   heap.check(heap.f.lks_shape_cast(assets?.address ?? 0, first, second, heap.input + WAY, heap.output));
   return hitOf(heap);
@@ -114,8 +118,7 @@ export function shapeCast({ heap }: Lockstone, a: PlacedShape, b: PlacedShape, w
  */
 export function shapeImpact({ heap }: Lockstone, a: PlacedShape, endA: Place, b: PlacedShape, endB: Place, gap: Quantity = 0.0005,
   assets?: Assets): ShapeHit | null {
-  heap.needs("lks_shape_impact");
-  const [first, second] = [putPlaced(heap, heap.input + A, a), putPlaced(heap, heap.input + B, b)];
+  const [first, second] = putPair(heap, "lks_shape_impact", a, b);
   const [afterA, afterB] = [putPlace(heap, heap.input + END_A, endA), putPlace(heap, heap.input + END_B, endB)];
   const near = raw32(gap, c.LKS_LENGTH_BITS);
   heap.check(heap.f.lks_shape_impact(assets?.address ?? 0, first, afterA, second, afterB, near, heap.output));
