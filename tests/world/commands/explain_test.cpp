@@ -73,7 +73,8 @@ TEST(ExplainBody, NamesEachFieldThatCreateBodyRefuses) {
       {"body.shape.radius", [](D& d) { d.shape = Shape::sphere({}); }},
       {"body.shape.size.y", [](D& d) { d.shape.size.y = 1_m; }},
       {"body.shape.half_height", [](D& d) { d.shape = Shape::capsule(513_m, 1_m); }},
-      {"body.shape.half_z", [](D& d) { d.shape = Shape::box(1_m, 1_m, 0.0001_m); }},
+      {"body.shape.half_z", [](D& d) { d.shape = Shape::box(1_m, 1_m, 0.00009_m); }},
+      {"body.shape.half_x", [](D& d) { d.shape = Shape::box(0.0009_m, 0.0009_m, 0.0009_m); }},
       {"body.shape.asset",
        [](D& d) {
          d.shape = {ShapeKind::hull, {}, {}};
