@@ -64,6 +64,10 @@ TEST(EffortPolicy, KeepsAPileLooseForFourSecondsAfterItWasStirred) {
     EXPECT_NEAR(static_cast<double>(ticks), 4.0 * rate, rate / 60.0) << rate;
     body.loose_time = 100;
     EXPECT_EQ(EffortPolicy::loose_time(tight, body, step, 0), 0);
+    IslandTally jointed = calm;
+    jointed.joints = 1;
+    EXPECT_EQ(EffortPolicy::loose_time(jointed, body, step, 0),
+              EffortPolicy::loose_time(stirred, body, step, 0));
   }
 }
 

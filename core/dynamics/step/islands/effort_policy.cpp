@@ -155,7 +155,7 @@ std::uint8_t EffortPolicy::loose_time(const IslandTally& island, const BodyRecor
   constexpr std::int32_t k_seconds = 4, k_unit_rate = 60;
   if (!island.is_loose) return 0;
   const std::int32_t most = k_seconds * std::min(step.tick_rate, k_unit_rate);
-  if (is_stirred(island)) return static_cast<std::uint8_t>(most);
+  if (is_stirred(island) || island.joints != 0) return static_cast<std::uint8_t>(most);
   const int unit = std::max(step.tick_rate / k_unit_rate, 1);
   const bool counts = tick % static_cast<std::uint64_t>(unit) == 0;
   return static_cast<std::uint8_t>(std::max(body.loose_time - (counts ? 1 : 0), 0));

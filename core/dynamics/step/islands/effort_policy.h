@@ -37,7 +37,8 @@ class EffortPolicy {
   /// Whether an island that may be loose is a loose pile: it is stirred, as more than a quarter of
   /// its bodies differ from their mean velocity by 1/4 m/s, or it was so within four seconds.
   /// Iterations bring most such piles to rest by then, at a tenth of the cost. One that still moves
-  /// is jammed, and only converged contacts let it rest.
+  /// is jammed, and only converged contacts let it rest. Those with joints gain nothing by that,
+  /// and stay loose until they sleep.
   [[nodiscard]] static bool is_loose_pile(const IslandTally& island);
 
   /// Marks loose piles, once the counts of islands are known.
