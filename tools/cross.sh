@@ -100,13 +100,36 @@ runner_of() {
   echo "$runner"
 }
 
-# build TARGET: quiet; its output is kept in a log, which is named when it fails.
+# log_of TARGET: the output of its build.
+log_of() { echo "build/cross/$(preset_of "$1").log"; }
+
+# mark_of TARGET: a file that is there when it is built.
+mark_of() { echo "build/cross/$(preset_of "$1").built"; }
+
+# build TARGET JOBS: quiet; its output is kept in a log, which is named when it fails.
 build() {
-  local preset log=build/cross/$1.log
-  preset=$(preset_of "$1")
-  mkdir -p build/cross
+  local log preset
+  log=$(log_of "$1") preset=$(preset_of "$1")
   cmake --preset "$preset" >"$log" 2>&1 &&
-    cmake --build --preset "$preset" --parallel "$jobs" >>"$log" 2>&1
+    cmake --build --preset "$preset" --parallel "$2" >>"$log" 2>&1 && touch "$(mark_of "$1")"
+}
+
+# build_all: as many of the wanted presets at the same time as there are jobs. Where each has one job, no
+# processor is idle while the other one compiles the last, longest file.
+build_all() {
+  local -A targets=()
+  local target
+  mkdir -p build/cross
+  for target in "${wanted[@]}"; do
+    rm -f "$(mark_of "$target")"
+    if [[ -z $(lacking "$target") ]]; then targets[$(preset_of "$target")]=$target; fi
+  done
+  for target in "${targets[@]}"; do
+    while (($(jobs -rp | wc -l) >= jobs)); do wait -n || true; done
+    say "build $(preset_of "$target")"
+    build "$target" $(((jobs + ${#targets[@]} - 1) / ${#targets[@]})) &
+  done
+  wait
 }
 
 left_out=0
@@ -132,20 +155,21 @@ if [[ " ${wanted[*]} " =~ \ (i386|windows|wasm|wasm-scalar)\  ]]; then (require_
 export WINEDEBUG=${WINEDEBUG:--all}
 # Where Debian keeps the modules that Emscripten's linker needs: a Node from elsewhere looks not there.
 export NODE_PATH=${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs
+build_all
 runners=()
 for target in "${wanted[@]}"; do
   mapfile -t programs < <(lacking "$target")
   if ((${#programs[@]})); then
     leave_out "$target" "no ${programs[*]}"
-  elif say "build $target" && build "$target"; then
+  elif [[ -e $(mark_of "$target") ]]; then
     if runs_here "$target"; then
       runners+=("$(runner_of "$target")")
     else
       leave_out "$target" "this processor cannot run it"
     fi
   else
-    grep -m 5 -iE 'error|not found' "build/cross/$target.log" || tail -n 5 "build/cross/$target.log"
-    leave_out "$target" "does not build, see build/cross/$target.log"
+    grep -m 5 -iE 'error|not found' "$(log_of "$target")" || tail -n 5 "$(log_of "$target")"
+    leave_out "$target" "does not build, see $(log_of "$target")"
   fi
 done
 

@@ -76,3 +76,13 @@ function(lockstone_add_library name)
   endif()
   lockstone_unite_sources(${target})
 endfunction()
+
+# lockstone_link_core_first(PROGRAM): of the copies of a function in a header the linker takes the first.
+# In a program whose own files are compiled with -O0, as tests with sanitizers are, that shall be the one
+# of core, which is optimised and checked: else such programs take half as long again.
+function(lockstone_link_core_first program)
+  if(CMAKE_BUILD_TYPE STREQUAL "Debug" AND UNIX AND NOT APPLE)
+    target_link_options(${program} PRIVATE
+      LINKER:--whole-archive,$<TARGET_FILE:lockstone_core>,--no-whole-archive)
+  endif()
+endfunction()
