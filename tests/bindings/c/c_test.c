@@ -313,7 +313,7 @@ static void hulls_are_built_from_points(void) {
   OK(lks_assets_add_scaled(assets, hull, &factors, &slab));
   factors.z = 0;
   REFUSED(LKS_INVALID_ARGUMENT, lks_assets_add_scaled(assets, hull, &factors, &same));
-  factors.z = lks_number_milli(1000000);
+  factors.z = lks_number_milli(1100000); /* 550 m: beyond 512 */
   REFUSED(LKS_INVALID_ARGUMENT, lks_assets_add_scaled(assets, hull, &factors, &same));
   factors.x = factors.y = factors.z = lks_number_milli(1000);
   REFUSED(LKS_NOT_FOUND, lks_assets_add_scaled(assets, hull + 1, &factors, &same));
