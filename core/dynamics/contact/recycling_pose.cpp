@@ -45,6 +45,8 @@ void turn_anchor(const PoseDelta& delta, Vec3<Length>& anchor) {
   const std::int64_t x = anchor.x.raw, y = anchor.y.raw, z = anchor.z.raw;
   const auto& turn = delta.turn;
   LKS_ASSERT(delta.is_wide);
+  LKS_ASSERT(is_within(3, std::int64_t{1} << 30,
+                       [&](int i) { return std::int64_t{turn[static_cast<std::size_t>(i)]}; }));
   const auto add = [](Length& to, std::int64_t by) {
     to.raw = raw::saturate<std::int32_t>(to.raw + raw::round_shift(by, k_turn_bits));
   };
@@ -65,7 +67,6 @@ Vec3<Position> recycling_position(const BodyRecord& body) {
 bool is_near_recycling_pose(const BodyRecord& body, const RecyclingRange& range) {
   LKS_ASSERT(range.metres <= k_wide_range.metres && range.scales <= k_wide_range.scales);
   const int exponent = std::min(range.metres, body.scale_exponent + range.scales);
-  LKS_ASSERT(exponent <= k_wide_range.metres);
   // A place is rounded to a step of lengths.
   const std::int64_t way = std::int64_t{1}
                            << std::max(Position::frac_bits + exponent, k_place_shift + 1);

@@ -20,10 +20,9 @@ PlacedShape BodyCache::placed(std::uint32_t body, const BodyRecord& record) cons
 
 PlacedShape BodyCache::recycled(std::uint32_t body, const BodyRecord& record) const {
   const Vec3<Position> centre = recycling_position(record);
-  const Mat3& rotation = recycling_rotations_[body];
   if (assets_[body] != nullptr && record.recycling_orientation == record.orientation)
     return place(record.shape(), assets_[body], centre, frames_[body]);
-  return place(record.shape(), assets_[body], centre, rotation);
+  return place(record.shape(), assets_[body], centre, recycling_rotations_[body]);
 }
 
 void BodyCache::refresh(std::uint32_t body, const BodyRecord& record) {

@@ -35,15 +35,17 @@ struct NarrowData {
   SeparatingAxes separating_axes;
 };
 
+/// Whether it is a box or a hull: faces, edges and vertices keep their numbers from tick to tick.
+[[nodiscard]] inline bool has_faces(const BodyRecord& body) {
+  const auto kind = static_cast<ShapeKind>(body.shape_kind);
+  return kind == ShapeKind::box || kind == ShapeKind::hull;
+}
+
 /// Where pairs are collided whose bodies may move away from their recycling poses: faces and edges
 /// of boxes and hulls stay where they are while their bodies move so little; round shapes touch
 /// elsewhere at once, and are soon collided.
 [[nodiscard]] inline bool is_found_at_recycling_poses(const WorldData& world, const Pair& pair) {
-  const auto has_faces = [&](std::uint32_t body) {
-    const auto kind = static_cast<ShapeKind>(world.bodies[body].shape_kind);
-    return kind == ShapeKind::box || kind == ShapeKind::hull;
-  };
-  return has_faces(pair.a) && has_faces(pair.b);
+  return has_faces(world.bodies[pair.a]) && has_faces(world.bodies[pair.b]);
 }
 
 /// Whether the body has one part, 0: no compound and no mesh.

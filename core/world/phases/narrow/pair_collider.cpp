@@ -16,13 +16,10 @@
 namespace lockstone {
 namespace {
 
-bool has_faces(const Shape& shape) {
-  return shape.kind == ShapeKind::box || shape.kind == ShapeKind::hull;
-}
-
 // Of two boxes or hulls that touched a tick ago; other pairs hold nothing. Whether bodies that are
 // apart have a contact follows from how bounds are rounded, and must not change the results.
-HeldFeatures held_features(std::span<const ContactRecord> before, const Shape& a, const Shape& b) {
+HeldFeatures held_features(std::span<const ContactRecord> before, const BodyRecord& a,
+                           const BodyRecord& b) {
   HeldFeatures held;
   if (before.size() != 1 || !before.front().is_touching()) return held;
   if (!has_faces(a) || !has_faces(b)) return held;
@@ -89,7 +86,7 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
   } else {
     read_poses(pair, margin, input);
   }
-  entry.held = held_features(before, a.shape(), b.shape());
+  entry.held = held_features(before, a, b);
   // Anchors that turned with their bodies are no more those that were found.
   const bool turns = is_recycled && (world_.cache.pose_delta(pair.a).is_wide ||
                                      world_.cache.pose_delta(pair.b).is_wide);
