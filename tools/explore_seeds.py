@@ -3,17 +3,19 @@
 usage: explore_seeds.py --tests JSON --report XML --seconds N [--jobs N] [--first-seed N] [--longest N]
 
 JSON is the output of `ctest --show-only=json-v1`, XML the JUnit report of a run: the tests whose output
-there names the seed depend on it. Each gets the same share of the time, and one run at least. A test
+there names the seed depend on it. Each gets the same share of the time. They are begun in an order drawn from
+the first seed, so where the time is too short for all of them, each exploration tries others. A test
 that fails is a finding: it is printed with the command that repeats it, and not tried again. So is one
 that twice runs with one seed for longer than --longest (60 s) and ten times its time in the report;
 once may be the machine, which stood still or was busy. The last line is "explore: N runs of N tests, N
-findings"; the status is 3 when there is a finding.
+findings", with the number of tests that ran; the status is 3 when there is a finding.
 """
 
 import argparse
 import heapq
 import json
 import os
+import random
 import shlex
 import subprocess
 import sys
@@ -72,21 +74,23 @@ class Test:
 
 class Exploration:
     def __init__(self, tests, seconds, first_seed):
-        self.queue = [(0.0, index, test) for index, test in enumerate(tests)]
-        heapq.heapify(self.queue)
+        self.queue = [(0.0, index, test)
+                      for index, test in enumerate(random.Random(first_seed).sample(tests, len(tests)))]
         self.end = time.monotonic() + seconds
         self.seed = first_seed
         self.lock = threading.Lock()
-        self.runs = self.findings = 0
+        self.runs = self.tried = self.findings = 0
 
     def next(self):
-        """The test that has run for the shortest time, and a seed of its own; None at the end."""
+        """The test that has run for the shortest time, and a seed of its own; None at the end, after one run
+        at least."""
         with self.lock:
-            if not self.queue or (time.monotonic() >= self.end and self.queue[0][2].spent > 0):
+            if not self.queue or (time.monotonic() >= self.end and self.runs > 0):
                 return None
-            _, index, test = heapq.heappop(self.queue)
+            spent, index, test = heapq.heappop(self.queue)
             self.seed += 1
             self.runs += 1
+            self.tried += spent == 0
             return index, test, self.seed
 
     def report(self, index, test, seed, failure):
@@ -128,7 +132,7 @@ def main():
         worker.start()
     for worker in workers:
         worker.join()
-    print(f"explore: {exploration.runs} runs of {len(tests)} tests, {exploration.findings} findings")
+    print(f"explore: {exploration.runs} runs of {exploration.tried} tests, {exploration.findings} findings")
     sys.exit(3 if exploration.findings else 0)
 
 

@@ -1,5 +1,6 @@
 // The tick.
 
+#include "core/dynamics/step/contact_solver.h"
 #include "core/world/phases/fluids.h"
 #include "core/world/phases/pair_filter.h"
 #include "core/world/phases/vehicle/vehicle_phase.h"
@@ -69,23 +70,23 @@ void World::Impl::solve_contacts(StepReport& report) {
   events.hits().begin();
   {
     const StageTimer timer(profiler, StepStage::prepare);
-    solver.prepare({std::span(bodies).first(header.body_limit), cache.rotations(),
-                    found.manifold_ids, found.manifolds, found.surfaces, found.records,
-                    std::span(joints).first(header.joint_limit), links, assets.get(),
-                    header.gravity, header.tick, events.hits().watched()},
-                   parallel);
+    solver->prepare({std::span(bodies).first(header.body_limit), cache.rotations(),
+                     found.manifold_ids, found.manifolds, found.surfaces, found.records,
+                     std::span(joints).first(header.joint_limit), links, assets.get(),
+                     header.gravity, header.tick, events.hits().watched()},
+                    parallel);
   }
   {
     const StageTimer timer(profiler, StepStage::solve);
-    solver.run(parallel);
+    solver->run(parallel);
   }
   {
     const StageTimer timer(profiler, StepStage::store);
-    solver.store(found.manifolds, found.records, found.approach_speeds, parallel);
-    solver.store_joints(links, joints, parallel);
-    events.hits().add_solved(solver.totals());
+    solver->store(found.manifolds, found.records, found.approach_speeds, parallel);
+    solver->store_joints(links, joints, parallel);
+    events.hits().add_solved(solver->totals());
   }
-  const SolverCounts counts = solver.counts();
+  const SolverCounts counts = solver->counts();
   const Bounces& bounces = left_out.bounces;
   report.still_contacts = left_out.still.contacts();
   report.contacts = counts.contacts + static_cast<std::uint32_t>(bounces.contacts().size()) +

@@ -6,6 +6,7 @@
 
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/state/limits.h"
+#include "core/dynamics/step/contact_solver.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/math/block_float.h"
 #include "core/world/commands/command_checks.h"
@@ -68,20 +69,23 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       narrow(*this, found),
       moved(*this),
       left_out(*this, found, moved, islands),
-      solver(time_step, definition.body_capacity, definition.contact_capacity,
-             definition.joint_capacity, definition.converged_contacts),
+      solver(std::make_unique<ContactSolver>(time_step, definition.body_capacity,
+                                             definition.contact_capacity, definition.joint_capacity,
+                                             definition.converged_contacts)),
       continuous(*this, moved, narrow, waking, passes),
       passes(*this, found, continuous, moved),
-      mover(*this, moved, solver, left_out, continuous, sleep_flags.rest_rules()),
+      mover(*this, moved, *solver, left_out, continuous, sleep_flags.rest_rules()),
       events(*this, found),
       island_sleep(*this, sleep_flags, waking, islands, found),
       trace(*this) {
-  solver.make_room(parallel.workers());
+  solver->make_room(parallel.workers());
 }
+
+World::Impl::~Impl() = default;
 
 void World::Impl::make_room() {
   narrow.make_room();
-  solver.make_room(parallel.workers());
+  solver->make_room(parallel.workers());
 }
 
 World::World(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -7,7 +7,6 @@
 #include <lockstone/world.h>
 
 #include "core/dynamics/islands/islands.h"
-#include "core/dynamics/step/contact_solver.h"
 #include "core/world/commands/body_registry.h"
 #include "core/world/commands/joint_registry.h"
 #include "core/world/data/world_data.h"
@@ -27,11 +26,13 @@
 
 namespace lockstone {
 
+class ContactSolver;
 class PairFilter;
 
 /// Phases are built from the data that they read and write and from the phases that they call.
 struct World::Impl : WorldData {
   [[gnu::cold]] Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
+  ~Impl();
 
   /// One tick. With `only`, a tick of the bodies whose pairs it takes, as if no others moved.
   StepReport step(PairFilter* only = nullptr);
@@ -60,7 +61,7 @@ struct World::Impl : WorldData {
   NarrowPhase narrow;
   MovedBodies moved;
   LeftOut left_out;
-  ContactSolver solver;
+  std::unique_ptr<ContactSolver> solver;  // its headers would double the time to compile this one
   ContinuousCollision continuous;
   TriggerPasses passes;
   BodyMover mover;

@@ -21,16 +21,13 @@ echo "[ seed     ] LOCKSTONE_TEST_SEED=$LOCKSTONE_TEST_SEED"
 PASSING = """#!/bin/sh
 echo "[ seed     ] LOCKSTONE_TEST_SEED=$LOCKSTONE_TEST_SEED"
 """
+FAILING = "#!/bin/sh\nexit 1\n"
 # Late whenever it runs, or for the first time only, with the word given.
 LATE = """#!/bin/sh
 echo "[ seed     ] LOCKSTONE_TEST_SEED=$LOCKSTONE_TEST_SEED"
 [ "$WHEN" = once ] && [ -e late ] || { touch late; exec sleep 20; }
 """
-REPORT = """<testsuite>
-<testcase name="{name}" status="run" time="0.01"><system-out>LOCKSTONE_TEST_SEED=7</system-out></testcase>
-<testcase name="Same.EveryTime" status="run" time="0.01"><system-out>ok</system-out></testcase>
-</testsuite>
-"""
+CASE = '<testcase name="{}" status="run" time="0.01"><system-out>{}</system-out></testcase>'
 
 
 class Explore(unittest.TestCase):
@@ -39,19 +36,22 @@ class Explore(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def explore(self, name, script, environment=(), seconds=1, longest=60):
+    def explore(self, names, script, environment=(), seconds=1, longest=60, first_seed=1000):
         program = self.folder / "program"
         program.write_text(script, encoding="utf-8")
         program.chmod(0o755)
         # A test that does not name the seed must not be run: this one would fail.
+        names = names.split()
         tests = [{"name": name, "command": [str(program), "--filter=A.b"],
-                  "properties": [{"name": "ENVIRONMENT", "value": list(environment)}]},
-                 {"name": "Same.EveryTime", "command": ["false"]}]
+                  "properties": [{"name": "ENVIRONMENT", "value": list(environment)}]} for name in names]
+        tests.append({"name": "Same.EveryTime", "command": ["false"]})
+        cases = [CASE.format(name, "LOCKSTONE_TEST_SEED=7") for name in names]
+        report = "".join(["<testsuite>", *cases, CASE.format("Same.EveryTime", "ok"), "</testsuite>"])
         (self.folder / "tests.json").write_text(json.dumps({"tests": tests}), encoding="utf-8")
-        (self.folder / "report.xml").write_text(REPORT.format(name=name), encoding="utf-8")
+        (self.folder / "report.xml").write_text(report, encoding="utf-8")
         return subprocess.run(
             [sys.executable, "-B", EXPLORE, "--tests", "tests.json", "--report", "report.xml",
-             "--seconds", str(seconds), "--jobs", "2", "--first-seed", "1000", "--longest", str(longest)],
+             "--seconds", str(seconds), "--jobs", "2", "--first-seed", str(first_seed), "--longest", str(longest)],
             cwd=self.folder, capture_output=True, text=True, check=False)
 
     def test_finds_the_seed_that_fails_and_prints_how_to_repeat_it(self):
@@ -70,8 +70,14 @@ class Explore(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertRegex(done.stdout, r"^explore: [1-9]\d* runs of 1 tests, 0 findings\n$")
 
-    def test_tries_every_test_once_however_short_the_time(self):
+    def test_runs_one_test_however_short_the_time(self):
         self.assertRegex(self.explore("A.b", PASSING, seconds=0).stdout, "^explore: 1 runs of 1 tests")
+
+    def test_tries_other_tests_with_another_first_seed(self):
+        names = " ".join(f"A.b{i}" for i in range(20))
+        found = {re.match(r"-- found: (\S+)", self.explore(names, FAILING, seconds=0, first_seed=seed).stdout)[1]
+                 for seed in range(9)}
+        self.assertGreater(len(found), 3, found)
 
     def test_reports_what_is_late_twice_with_one_seed(self):
         done = self.explore("A.b", LATE, environment=["WHEN=always"], seconds=0, longest=0.4)

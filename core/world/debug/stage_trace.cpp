@@ -7,6 +7,7 @@
 
 #include <lockstone/hash.h>
 
+#include "core/dynamics/step/contact_solver.h"
 #include "core/world/state/record_hash.h"
 #include "core/world/state/state_validator.h"
 #include "core/world/world_impl.h"
@@ -77,9 +78,9 @@ std::uint64_t StageTrace::digest_of(StepStage stage) const {
       break;
     case StepStage::solve:
       for (std::uint32_t body = 0; body < world_.header.body_limit; ++body) {
-        const SolverBody* solved = world_.awake.has(body) ? world_.solver.find(body) : nullptr;
+        const SolverBody* solved = world_.awake.has(body) ? world_.solver->find(body) : nullptr;
         if (solved == nullptr) continue;
-        for (const Vec3<Velocity>& speed : world_.solver.speeds(*solved))
+        for (const Vec3<Velocity>& speed : world_.solver->speeds(*solved))
           digest.add(speed);
       }
       break;

@@ -7,6 +7,7 @@
 
 #include <lockstone/rollback_history.h>
 
+#include "core/dynamics/step/contact_solver.h"
 #include "core/world/history/computed_bodies.h"
 #include "core/world/history/island_groups.h"
 #include "core/world/history/next_state.h"
@@ -87,7 +88,7 @@ StepReport RollbackHistory::Impl::compute_all() {
   const std::vector<JointEvent>& joint_events = world.joint_registry.events();
   fresh.joint_events.assign(joint_events.begin(), joint_events.end());
   fresh.pairs.assign(world.pairs.begin(), world.pairs.end());
-  world.solver.list_shares(fresh.shares);
+  world.solver->list_shares(fresh.shares);
   remember(report, pools_in_use());
   return report;
 }
@@ -153,20 +154,20 @@ void RollbackHistory::Impl::note_groups() {
 
 // Of all pools that islands share but those of converged ones, and of the places for contacts.
 PoolUse RollbackHistory::Impl::pools_in_use() const {
-  PoolUse pools = world.solver.counts().pools;
+  PoolUse pools = world.solver->counts().pools;
   pools.add(world.narrow.found_at_first(), world.def.contact_capacity);
   return pools;
 }
 
 // Of converged islands, those of the computed bodies and of the others. Whether all found room.
 bool RollbackHistory::Impl::add_known_shares(const TickMemory& known) {
-  world.solver.list_shares(fresh.shares);
+  world.solver->list_shares(fresh.shares);
   for (const IslandShare& each : known.shares)
     if (!computed.has(each.body)) fresh.shares.push_back(each);
   PoolShare sum;
   for (const IslandShare& each : fresh.shares)
     sum.add(each.share);
-  return sum.fits(world.solver.room());
+  return sum.fits(world.solver->room());
 }
 
 void RollbackHistory::Impl::remember(const StepReport& report, const PoolUse& pools) {

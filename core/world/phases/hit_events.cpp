@@ -8,6 +8,7 @@
 #include "core/base/reserved.h"
 #include "core/collision/query/cast_placed.h"
 #include "core/dynamics/body/motion.h"
+#include "core/dynamics/step/contacts/impulse_totals.h"
 #include "core/math/divide.h"
 #include "core/math/int128.h"
 #include "core/world/derived/quantities.h"

@@ -10,12 +10,15 @@
 
 #include "core/dynamics/impact/impact_total.h"
 #include "core/dynamics/state/limits.h"
-#include "core/dynamics/step/contacts/impulse_totals.h"
+#include "core/dynamics/step/input/contact_scene.h"
 #include "core/world/data/world_data.h"
 #include "core/world/phases/step_records.h"
 #include "core/world/phases/tick_contacts.h"
 
 namespace lockstone {
+
+struct ImpulseTotal;
+class ImpulseTotals;
 
 /// The hit speed that counts for two bodies; 0: they have no hit events.
 [[nodiscard]] SolverVelocity hit_speed_of(const BodyRecord& a, const BodyRecord& b);

@@ -4,6 +4,7 @@
 
 #include "core/dynamics/body/damping.h"
 #include "core/dynamics/body/motion.h"
+#include "core/dynamics/step/contact_solver.h"
 
 namespace lockstone {
 

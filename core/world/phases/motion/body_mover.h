@@ -7,13 +7,15 @@
 
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/body/rest.h"
-#include "core/dynamics/step/contact_solver.h"
 #include "core/world/data/world_data.h"
 #include "core/world/phases/motion/continuous.h"
 #include "core/world/phases/motion/left_out.h"
 #include "core/world/phases/motion/moved_bodies.h"
 
 namespace lockstone {
+
+class ContactSolver;
+struct SolverBody;
 
 /// Each awake body takes the results of the solver, of its bounces or of its pendulum; a body that
 /// no constraint names takes the exact ballistic step.
