@@ -103,11 +103,14 @@ class WaysOut {
     return pair_.offset + farthest_point(pair_.b, -n);
   }
 
-  /// The way to the side, of solids of revolution, where it is nearest to a ball's centre.
+  /// The way to the other's surface where it is nearest to a ball's centre: within it to the side
+  /// of a solid of revolution, outside it to whatever is nearest there.
   void take_nearest(const RawVec& centre, const ConvexCore& other, int sign) {
     const RawVec point = centre - (sign > 0 ? pair_.offset : -pair_.offset);
+    if (is_taper(other)) return take(signed_axis(taper_point_gap(other, point).gap.normal, -sign));
     if (other.rims.count != 0) take(signed_axis(rim_side_normal(other.rims, point), -sign));
-    if (is_taper(other)) take(signed_axis(taper_point_gap(other, point).gap.normal, -sign));
+    GapQuery from_point(ConvexCore{}, other);
+    if (from_point.find(-point)) take(signed_axis(from_point.gap().normal, sign));
   }
 
   /// Whether both balls reach equally far along n.
