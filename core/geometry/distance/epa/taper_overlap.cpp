@@ -104,7 +104,7 @@ class WaysOut {
   }
 
   /// The way to the other's surface where it is nearest to a ball's centre: within it to the side
-  /// of a solid of revolution, outside it to whatever is nearest there.
+  /// of a solid of revolution, outside it to the nearest point.
   void take_nearest(const RawVec& centre, const ConvexCore& other, int sign) {
     const RawVec point = centre - (sign > 0 ? pair_.offset : -pair_.offset);
     if (is_taper(other)) return take(signed_axis(taper_point_gap(other, point).gap.normal, -sign));
