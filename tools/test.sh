@@ -2,7 +2,7 @@
 # Builds the project with all warnings in build/release and runs its tests.
 #
 # usage: tools/test.sh [--sanitize] [--fuzz[=SECONDS]] [--cross[=TARGET,…]] [--explore [SECONDS]]
-#                      [--bindings] [--werror] [--unity]
+#                      [--browser] [--bindings] [--werror] [--unity]
 #
 # The tests do the same in every run: their seeds are listed (tests/support/random.h and
 # listed_seeds.txt). LOCKSTONE_TEST_SEED gives them another.
@@ -12,6 +12,7 @@
 #                sanitizers (build/fuzz, default 30 s each)
 #   --cross      also compare the golden scenes between processors, see tools/cross.sh
 #                (default aarch64,s390x)
+#   --browser    also test WebAssembly in headless Chromium, see tools/web.sh brief
 #   --explore    also run the tests that draw from a seed with new ones (default 60 s), after all
 #                others. Its findings are counted in a line of their own and printed with the
 #                command that repeats it; the status is then 3, if nothing else failed
@@ -52,14 +53,15 @@ run_tests() {
   count "$report" "$1"
 }
 
-run_cross() {
+# run_script SCRIPT ARGUMENT…: counts as one test.
+run_script() {
   local output
   output=$(mktemp)
-  if tools/cross.sh "$@" 2>&1 | tee "$output"; then
+  if "$@" 2>&1 | tee "$output"; then
     passed=$((passed + 1))
   else
     failed=$((failed + 1))
-    { echo "-- failed: tools/cross.sh $*" && tail -40 "$output"; } >>"$failures"
+    { echo "-- failed: $*" && tail -40 "$output"; } >>"$failures"
   fi
   rm -f "$output"
 }
@@ -114,6 +116,7 @@ sanitize=false
 fuzz_seconds=0
 explore_seconds=0
 bindings=false
+browser=false
 cross=()
 options=()
 while (($#)); do
@@ -128,6 +131,7 @@ while (($#)); do
     --explore)
       explore_seconds=60
       if [[ ${1-} =~ ^[0-9]+$ ]]; then explore_seconds=$1 && shift; fi ;;
+    --browser) browser=true ;;
     --bindings) bindings=true ;;
     --werror) options+=(-DLOCKSTONE_WARNINGS_AS_ERRORS=ON) ;;
     --unity) options+=(-DLOCKSTONE_UNITY_BUILD=SESSION) ;;
@@ -139,6 +143,10 @@ done
 sections=(demo build assets)
 if "$bindings"; then sections+=(bindings); fi
 if "$sanitize" || ((fuzz_seconds)); then sections+=(clang); fi
+if "$browser"; then
+  sections+=(web-brief)
+  command -v chromium >/dev/null || sections+=(web-brief-browser)
+fi
 require_packages "${sections[@]}"
 if "$sanitize"; then
   build_preset asan-ubsan
@@ -150,9 +158,10 @@ if ((fuzz_seconds)); then
   build_targets=()
   run_fuzzers "$fuzz_seconds"
 fi
-if ((${#cross[@]})); then run_cross "${cross[@]}"; fi
+if ((${#cross[@]})); then run_script tools/cross.sh "${cross[@]}"; fi
 build_preset release "${options[@]}"
 run_tests release
+if "$browser"; then run_script tools/web.sh brief; fi
 if ((explore_seconds)); then explore "$explore_seconds"; fi
 
 echo

@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # Builds the npm package `lockstone` in build/web/package, tests it, measures it.
 #
-# usage: tools/web.sh [build | test [--quick | --long] | bench | serve [PORT]]
+# usage: tools/web.sh [build | test [--quick | --long] | brief | bench | serve [PORT]]
 #
 #   build     (default) both WebAssembly builds by Emscripten, the TypeScript, and a package to install,
 #             build/web/lockstone-VERSION.tgz
 #   test      builds, then tests the package in Node and in headless Chromium; --quick plays eight
 #             golden scenes, not all; --long plays the match of tabs and native clients for a minute, not
 #             ten seconds, with a client under qemu-aarch64. The match needs the native command, with WebSockets, in build/release or build/demo
+#   brief     builds one module without vectors, quickly compiled (build/web/brief), and tests it in headless
+#             Chromium: golden scenes, a match of a tab and a native client, a flipped state. Without npm
 #   bench     builds, then writes docs/benchmarks/web.md: size, load time and ticks beside other
 #             engines. Let nothing else run meanwhile
 #   serve     builds, then serves the testbed on this machine (default port 8000)
@@ -95,11 +97,25 @@ run_tests() {
   LOCKSTONE_WEB_SCENES=$scenes LOCKSTONE_WEB_MATCH=$match node --test tools/web/test/*.test.mjs
 }
 
+# brief: what tools/test.sh --browser runs. Its match is without encryption, whose functions are packages of npm.
+brief() {
+  require_packages demo web-brief
+  command -v chromium >/dev/null || require_packages web-brief-browser
+  export NODE_PATH=${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs
+  local page=$out/brief/package/dist
+  build_preset web-brief
+  mkdir -p "$page"
+  cp "$out/brief/tools/web/lockstone_web_session.wasm" "$page/lockstone-session.wasm"
+  esbuild tools/web/test/brief.ts --bundle --format=esm --log-level=warning --outfile="$page/session.js"
+  LOCKSTONE_WEB_PACKAGE=$out/brief/package node --test tools/web/test/brief.mjs
+}
+
 command=${1-build}
 (($# == 0)) || shift
 case $command in
   build) build ;;
   test) build && run_tests "$@" ;;
+  brief) brief ;;
   bench) build && node tools/web/bench/compare.mjs --page docs/benchmarks/web.md ;;
   serve) build && node tools/web/test/server.mjs "${1-8000}" ;;
   --help) usage ;;

@@ -104,14 +104,15 @@ export class Backend {
   }
 }
 
-/** A server for a match, with everything that plays in it; all of them end with `use`. */
+/** A server for a match, with everything that plays in it; all of them end with `use`. Tokens are asked for unless it is `--insecure`. */
 export async function withMatch(options, use) {
   const backend = new Backend();
   const programs = [];
   const keep = (program) => (programs.push(program), program);
   const run = (...args) => keep(new Program(...args));
   try {
-    const server = run("serve", "--key", backend.key, "--match", "1", "--ws", "0", ...options);
+    const door = options.includes("--insecure") ? [] : ["--key", backend.key, "--match", "1"];
+    const server = run("serve", ...door, "--ws", "0", ...options);
     const port = Number((await server.says(/listening on 127\.0\.0\.1:(\d+)/))[1]);
     const url = (await server.says(/listening on (wss?:\S+)/))[1];
     return await use({ backend, run, keep, server, port, url });
