@@ -189,6 +189,7 @@ lks_session_stats raw_of(const net::ClientStats& stats) {
   raw.states_loaded = stats.states_loaded;
   raw.islands_computed_again = stats.islands_computed_again;
   raw.islands_recalled = stats.islands_recalled;
+  raw.jitter_us = stats.jitter_us;
   return raw;
 }
 

@@ -11,6 +11,7 @@ import { LiveStage } from "./live_stage.js";
 import type { Mode } from "./mode.js";
 import { type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
+import { bodyOfPlayer } from "./players.js";
 import { Selection } from "./selection.js";
 import type { Live } from "./session.js";
 import { showSection } from "./show.js";
@@ -19,10 +20,9 @@ const PUMP_MS = 4; // between looks at the network
 const PREDICTED = 8; // ticks that a player's page runs ahead
 const SEATS = 64, SERVER = 253;
 const CHAT = 1; // first byte of a command: tools/arena/arena_command.h
-const PLAYER_TAG = 1; // of a player's body, above it the slot: tools/arena/tags.h
 const BOT_SEED = 1n;
 const MOST_LINES = 200;
-const FACTS = ["server", "seat", "state", "tick", "place", "players", "waits for", "lead", "late inputs", "rollbacks", "islands again", "states loaded"] as const;
+const FACTS = ["server", "seat", "state", "tick", "place", "players", "waits for", "lead", "jitter buffer", "late inputs", "rollbacks", "islands again", "states loaded"] as const;
 /** Events that a person reads, as sentences. */
 const LINES: Partial<Record<SessionEvent["kind"], string>> = {
   started: "the match runs", joined: "joined", silent: "is silent", "player active": "plays", "state loaded": "a state was loaded",
@@ -69,7 +69,7 @@ export class LiveView implements Mode {
   private readonly facts = new Facts("live", FACTS);
   private readonly charts = {
     lead: new Chart("Lead at the server", "ticks", "chart-lead"), received: new Chart("Received", "kB/s", "chart-received"),
-    late: new Chart("Late inputs", "", "chart-late"), again: new Chart("Ticks stepped again", "", "chart-again"),
+    jitter: new Chart("Jitter buffer", "ms", "chart-jitter"), late: new Chart("Late inputs", "", "chart-late"), again: new Chart("Ticks stepped again", "", "chart-again"),
     computed: new Chart("Islands computed again", "", "chart-computed"), recalled: new Chart("Islands remembered", "", "chart-recalled"),
   };
   private readonly lines = make("div", { class: "events", id: "live-events" });
@@ -116,6 +116,7 @@ export class LiveView implements Mode {
     this.facts.set("players", names.filter((name) => name !== "").join(", "));
     this.facts.set("waits for", awaited.map((slot) => `player ${slot}`).join(", ") || "nobody");
     this.facts.set("lead", this.plays ? `${stats.marginQuarters / 4} ticks` : "–");
+    this.facts.set("jitter buffer", `${stats.jitterMs.toFixed(1)} ms`);
     this.facts.set("late inputs", String(stats.substitutedInputs));
     this.facts.set("rollbacks", `${stats.rollbacks}, ${stats.ticksSteppedAgain} ticks again`);
     this.facts.set("islands again", `${stats.islandsComputedAgain} computed, ${stats.islandsRecalled} remembered`);
@@ -157,7 +158,7 @@ export class LiveView implements Mode {
     this.recording?.destroy();
     if (!this.lead.client.over) this.lead.client.leave();
     this.lead.destroy();
-    for (const diorama of this.dioramas) diorama.bodies.dispose();
+    for (const diorama of this.dioramas) diorama.dispose();
   }
 
   /** Takes another seat. The old one is left when the new one is there. */
@@ -199,13 +200,14 @@ export class LiveView implements Mode {
 
   private measure(tick: number): void {
     const { stats } = this.lead.client;
-    const { lead, received, late } = this.charts;
+    const { lead, received, jitter, late } = this.charts;
     const at = performance.now();
     this.received.push({ at, bytes: stats.bytesReceived });
     while (this.received.length > 2 && this.received[0]!.at < at - 1000) this.received.shift();
     const first = this.received[0]!;
     if (at > first.at) received.series.set(tick, (stats.bytesReceived - first.bytes) / (at - first.at));
     if (this.plays) lead.series.set(tick, stats.marginQuarters / 4);
+    jitter.series.set(tick, stats.jitterMs);
     late.series.set(tick, stats.substitutedInputs);
     const now = { again: stats.ticksSteppedAgain, computed: stats.islandsComputedAgain, recalled: stats.islandsRecalled };
     for (const name of ["again", "computed", "recalled"] as const) this.charts[name].series.set(tick, now[name] - this.before[name]);
@@ -221,8 +223,7 @@ export class LiveView implements Mode {
   private followOwn(): void {
     const { world, client } = this.lead;
     if (this.own === 0n || !new Body(world, this.own).exists) {
-      const tag = PLAYER_TAG + 256 * client.slot;
-      this.own = [...world.bodies()].find((body) => Number(body.view.userData & 0xffffffn) === tag)?.id ?? 0n;
+      this.own = bodyOfPlayer(world, client.slot);
     }
     const row = this.own === 0n ? -1 : new Body(world, this.own).index;
     const { positions } = this.lead.view;

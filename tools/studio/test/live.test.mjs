@@ -46,6 +46,7 @@ test("a spectator sees the match, and ends with its hash", { skip }, () => live(
   const early = await state();
   await page.waitForFunction((least) => Number(document.getElementById("tick-text").textContent.split(" ")[1]) > least, early.tick + 60);
   assert.ok(Number.parseFloat(await page.textContent("#chart-received")) > 0.1);
+  assert.ok(Number.parseFloat(await page.textContent("#live-jitter-buffer")) > 0, "ticks never come evenly");
   await finished(page);
   await frames();
   assert.deepEqual(await state(), { tick: TICKS, hash: await finalHash(match) });

@@ -69,6 +69,8 @@ export interface ClientStats {
   packetsReceived: number;
   /** How early the newest inputs came to the server, in quarters of a tick. */
   marginQuarters: number;
+  /** ms: the depth of the jitter buffer, which is the 99th percentile of how late ticks come. */
+  jitterMs: number;
   substitutedInputs: number;
   rollbacks: number;
   ticksSteppedAgain: number;
@@ -272,7 +274,7 @@ export class Client {
     return {
       bytesSent: number(s.bytes_sent), bytesReceived: number(s.bytes_received), packetsSent: number(s.packets_sent),
       packetsReceived: number(s.packets_received), marginQuarters: heap.i32[(at + s.margin_quarters) >>> 2]!,
-      substitutedInputs: number(s.substituted_inputs), rollbacks: number(s.rollbacks),
+      jitterMs: number(s.jitter_us) / 1000, substitutedInputs: number(s.substituted_inputs), rollbacks: number(s.rollbacks),
       ticksSteppedAgain: number(s.ticks_stepped_again), islandsComputedAgain: number(s.islands_computed_again),
       islandsRecalled: number(s.islands_recalled), statesLoaded: number(s.states_loaded),
     };

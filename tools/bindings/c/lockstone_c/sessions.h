@@ -80,6 +80,7 @@ typedef struct lks_session_stats {
   uint64_t commands_refused;
   uint64_t islands_computed_again; /* of a client, in the ticks that it stepped again */
   uint64_t islands_recalled;       /* and those that its history remembered */
+  int64_t jitter_us;               /* of a client: the depth of its jitter buffer */
 } lks_session_stats;
 
 #ifdef __cplusplus

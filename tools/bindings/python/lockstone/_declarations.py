@@ -789,6 +789,7 @@ class lks_session_stats(Structure):
         ("commands_refused", c_uint64),
         ("islands_computed_again", c_uint64),
         ("islands_recalled", c_uint64),
+        ("jitter_us", c_int64),
     ]
 
 

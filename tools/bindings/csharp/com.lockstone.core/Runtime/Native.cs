@@ -636,6 +636,7 @@ namespace Lockstone.Interop
         public ulong commands_refused;
         public ulong islands_computed_again;
         public ulong islands_recalled;
+        public long jitter_us;
     }
 
     [StructLayout(LayoutKind.Sequential)]

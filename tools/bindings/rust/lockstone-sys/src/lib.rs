@@ -794,6 +794,7 @@ pub struct lks_session_stats {
     pub commands_refused: u64,
     pub islands_computed_again: u64,
     pub islands_recalled: u64,
+    pub jitter_us: i64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
