@@ -3,7 +3,7 @@ import * as three from "three";
 import { Body } from "../../web/src/body.js";
 import type { Hit } from "../../web/src/queries.js";
 import { Chart, type Scale } from "./charts.js";
-import { Facts, button, make, section } from "./dom.js";
+import { Facts, button, make, section, toggle } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { Infection } from "./infection.js";
 import { LogFile } from "./log_file.js";
@@ -48,21 +48,24 @@ export class DesyncView implements Mode {
   readonly lane = null;
   readonly shown = new Set<string>(["triggers"]);
   readonly labels: string[];
-  readonly dioramas: Diorama[];
+  private readonly beside: Diorama[];
+  private readonly overlaid: Diorama[];
+  private isOverlaid = false;
   private rows = new Float32Array();
   private comparedTick = -1;
   private readonly table = make("tbody", { id: "differing" });
   private readonly counted = new Chart("Differing bodies", "", "chart-differing", 300);
   private readonly farthest = new Chart("Farthest apart", BY_SIZE, "chart-farthest", 300);
   private readonly infection: Infection;
-  private readonly selection = new Selection();
+  private readonly selection = new Selection(true);
   private readonly status = make("p", { id: "compare-status" });
 
   private constructor(private readonly engine: Engine, private readonly picture: Picture, private readonly desync: Desync,
     readonly lead: LogStage, private readonly there: LogStage, names: string[], private readonly seekTo: (tick: number) => void) {
     this.labels = [`here: ${names[0] ?? ""}`, `there: ${names[1] ?? names[0] ?? ""}`];
     const paint = differencePainter(() => this.rows, () => this.selection.row);
-    this.dioramas = [lead, there].map((stage) => new Diorama(stage, paint, () => this.pins(stage)));
+    this.beside = [lead, there].map((stage) => new Diorama(stage, paint, () => this.pins(stage)));
+    this.overlaid = [new Diorama(lead, paint, () => this.pins(lead), { stage: there, has: (row) => this.rows[4 * row] !== 0 })];
     picture.frame(lead);
     this.infection = new Infection(engine, (row) => this.look(row));
     this.buildPanel();
@@ -70,6 +73,11 @@ export class DesyncView implements Mode {
     this.seek(desync.found ? this.shownTick : lead.first);
     const worst = this.listed()[0];
     if (worst) this.look(worst.row);
+  }
+
+  /** Both worlds beside each other, or one in the other. */
+  get dioramas(): Diorama[] {
+    return this.isOverlaid ? this.overlaid : this.beside;
   }
 
   static async open(engine: Engine, picture: Picture, { logs, desync }: Session, seekTo: (tick: number) => void): Promise<DesyncView> {
@@ -112,6 +120,8 @@ export class DesyncView implements Mode {
   }
 
   key(key: string): boolean {
+    if (key === "o") document.getElementById("overlaid")?.click();
+    if (key === "o") return true;
     if (key !== "n" || !this.desync.found) return false;
     this.seekTo(this.shownTick);
     return true;
@@ -122,7 +132,7 @@ export class DesyncView implements Mode {
       stage.destroy();
       stage.log.close();
     }
-    for (const diorama of this.dioramas) diorama.bodies.dispose();
+    for (const diorama of [...this.beside, ...this.overlaid]) diorama.dispose();
   }
 
   /** The first tick at which both states are known and differ. */
@@ -213,7 +223,8 @@ export class DesyncView implements Mode {
     this.panel.append(
       section("Verdict", this.verdict(), make("div", { class: "row" },
         button("Before", "The last tick that is equal", () => this.seekTo(this.desync.tick), "go-before"),
-        button("First difference", "The first tick that differs (N)", () => this.seekTo(this.shownTick), "go-first"))),
+        button("First difference", "The first tick that differs (N)", () => this.seekTo(this.shownTick), "go-first"),
+        toggle("overlaid: the world there is clear (O)", "overlaid", false, (on) => (this.isOverlaid = on)))),
       section("Bodies that differ", this.status, make("table", {}, head, this.table),
         make("p", {}, "yellow: nanometres, red: metres; grey: equal")),
       section("How it spreads", make("div", { class: "charts" }, this.counted.element, this.farthest.element),

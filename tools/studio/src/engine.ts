@@ -54,17 +54,19 @@ export class Engine {
   readonly heap: Heap;
   readonly f: Exports & StudioFunctions;
 
-  private constructor(readonly lockstone: Lockstone) {
+  private constructor(readonly lockstone: Lockstone, readonly module: WebAssembly.Module) {
     this.heap = lockstone.heap;
     this.f = this.heap.f as Exports & StudioFunctions;
   }
 
-  /** `crypto`: for matches that run; without it the module can do all but connect. */
-  static async load(wasm: string | URL, crypto?: Imported): Promise<Engine> {
-    const never = () => new URL(wasm);
+  /** `module` may be that of an engine of another thread. `crypto`: for matches that run; without it the module can do all but connect. */
+  static async load(module: WebAssembly.Module, crypto?: Imported): Promise<Engine> {
+    const never = (): URL => {
+      throw new Error("the module is there");
+    };
     const studio: Imported = () => ({ now: () => performance.now() });
     const more: Record<string, Imported> = { lockstone_studio: studio, ...(crypto ? { lockstone_crypto: crypto } : {}) };
-    return new Engine(await loadFrom({ simd: true, wasm }, never, never, more));
+    return new Engine(await loadFrom({ simd: true, wasm: module }, never, never, more), module);
   }
 
   sceneNames(): string[] {

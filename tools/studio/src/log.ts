@@ -1,6 +1,7 @@
 // A log: watched, scrubbed, and proved tick by tick.
+import { Body } from "../../web/src/body.js";
 import type { Hit } from "../../web/src/queries.js";
-import { Facts, button, make, section } from "./dom.js";
+import { Facts, button, make, section, select } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { LogFile, ORIGINS, inputText } from "./log_file.js";
 import { LogLane } from "./log_lane.js";
@@ -8,12 +9,15 @@ import { LogStage, Proof } from "./log_stage.js";
 import type { Mode } from "./mode.js";
 import { type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
+import { bodyOfPlayer } from "./players.js";
 import { type ProverNews, type ProverTask, SERIES } from "./prover.js";
 import { Selection } from "./selection.js";
 import { showSection } from "./show.js";
 
 const STATE_EVERY = 15; // ticks: a scrub computes fewer
 const WORK_MS = 40; // of a frame, to compute towards a tick
+const NOBODY = "nobody";
+const NEAR = 0.7; // of the camera at a player, in radii of the scene
 const FACTS = ["game", "build", "match", "seed", "length", "players", "end"] as const;
 
 export class LogView implements Mode {
@@ -29,8 +33,10 @@ export class LogView implements Mode {
   private readonly selection = new Selection();
   private readonly inputs: Facts;
   private readonly worker: Worker;
+  private task: ProverTask | null;
   private colour: Colouring = "body";
   private known = 0;
+  private followed = -1; // the slot; -1: nobody's
   private readonly proof = make("p", { id: "proof" });
 
   constructor(engine: Engine, private readonly picture: Picture, bytes: Uint8Array, private readonly seekTo: (tick: number) => void) {
@@ -43,12 +49,11 @@ export class LogView implements Mode {
     this.timeline = new LogLane(this.log, this.lead.proofs, this.figures,
       (tick, moving) => seekTo(moving ? this.lead.cheapTick(tick) : tick));
     this.lane = this.timeline.canvas;
-    this.inputs = new Facts("input", Array.from({ length: this.log.players }, (_, slot) => `player ${slot}`));
+    this.inputs = new Facts("input", this.log.playerNames);
     this.buildPanel();
     this.worker = new Worker(new URL("prover.js", document.baseURI), { type: "module" });
     this.worker.onmessage = ({ data }: MessageEvent<ProverNews>) => this.hear(data);
-    const task: ProverTask = { wasm: new URL("lockstone-studio.wasm", document.baseURI).href, log: bytes, every: STATE_EVERY };
-    this.worker.postMessage(task);
+    this.task = { module: engine.module, log: bytes, every: STATE_EVERY };
   }
 
   step(): void {
@@ -66,9 +71,12 @@ export class LogView implements Mode {
 
   refresh(): void {
     const { lead, log } = this;
+    if (this.task) this.worker.postMessage(this.task, [this.task.log.buffer]); // after the first picture, which it would delay
+    this.task = null;
     lead.work(WORK_MS);
     this.timeline.draw(lead.tick, this.known);
     this.selection.refresh(lead.world, this.picture.target);
+    if (this.followed >= 0) this.follow();
     this.tellProof();
     for (let slot = 0; slot < log.players && lead.tick < lead.last; ++slot) {
       const { origin, bytes } = log.inputOf(lead.tick, slot);
@@ -91,7 +99,7 @@ export class LogView implements Mode {
     this.worker.terminate();
     this.lead.destroy();
     this.log.close();
-    for (const diorama of this.dioramas) diorama.bodies.dispose();
+    for (const diorama of this.dioramas) diorama.dispose();
     document.getElementById("proof-text")?.replaceChildren();
   }
 
@@ -100,6 +108,21 @@ export class LogView implements Mode {
     this.figures.set(figures, SERIES.length * (from - this.log.startTick));
     this.known = from + same.length - this.log.startTick;
     this.lead.keep(from + same.length, state);
+  }
+
+  private follow(): void {
+    const id = bodyOfPlayer(this.lead.world, this.followed);
+    if (id !== 0n) this.picture.target.set(...new Body(this.lead.world, id).position);
+  }
+
+  private followOf(): HTMLElement | null {
+    if (!this.log.isArena) return null;
+    const names = this.log.playerNames;
+    const follow = (name: string) => {
+      this.followed = names.indexOf(name);
+      if (this.followed >= 0) this.picture.distance = Math.min(this.picture.distance, NEAR);
+    };
+    return select("follow-player", [NOBODY, ...names], NOBODY, follow, "follow");
   }
 
   private tellProof(): void {
@@ -142,7 +165,7 @@ export class LogView implements Mode {
     const late = this.log.origins.reduce((sum, origin) => sum + (origin === 1 || origin === 2 ? 1 : 0), 0);
     this.panel.append(
       section("Log", this.factsOf(), this.proof),
-      section("Inputs of the next tick", this.inputs.element, make("p", {}, `late in all: ${late}`)),
+      section("Inputs of the next tick", this.inputs.element, make("p", {}, `late in all: ${late}`), this.followOf()),
       section("Events", this.log.events.length > 0 ? this.eventsOf() : make("p", {}, "none")),
       showSection(this.shown, this.colour, (colour) => (this.colour = colour)),
       this.selection.element);

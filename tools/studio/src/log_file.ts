@@ -66,6 +66,10 @@ export class LogFile {
     [this.game, this.build, this.end, this.damage] = [0, 1, 2, 3].map((which) => this.text(which).trim()) as [string, string, string, string];
   }
 
+  get playerNames(): string[] {
+    return Array.from({ length: this.players }, (_, slot) => `player ${slot}`);
+  }
+
   get endTick(): number {
     return this.startTick + this.ticks;
   }

@@ -19,7 +19,7 @@ import { WorldView } from "./world_view.js";
 const KEYS: [string, string][] = [
   ["space", "play or pause"], ["← →", "one tick back or on"], ["shift ← →", "60 ticks"], ["R", "back by 600 ticks"], ["Home", "to the beginning"],
   ["1 … 6", "testbed: contacts, joints, bounds, centres of mass, sleeping, triggers"], ["C", "testbed: colour by body, island, activity"],
-  ["F B U X", "testbed: throw, drop, push up, remove"], ["N", "log, desync: to the first difference"],
+  ["F B U X", "testbed: throw, drop, push up, remove"], ["N", "log, desync: to the first difference"], ["O", "desync: both worlds in one picture"],
   ["P", "save a picture"], ["V", "begin a film, end and save it"], ["I", "begin a picture of every tick, end and save them"], ["L", "copy a link"], ["T", "light or dark"],
 ];
 const VIEWS = { testbed: "Testbed", log: "Log", desync: "Desync", live: "Live", world: "World" } as const;
@@ -158,8 +158,8 @@ async function begin(): Promise<void> {
   document.addEventListener("keydown", (event) => press(event) && event.preventDefault());
   takeFiles();
   tell("Loading …");
-  const session = await sessionOf();
-  const engine = await Engine.load(new URL("lockstone-studio.wasm", document.baseURI), cryptoImports);
+  const module = WebAssembly.compileStreaming(fetch(new URL("lockstone-studio.wasm", document.baseURI)));
+  const [session, engine] = await Promise.all([sessionOf(), module.then((one) => Engine.load(one, cryptoImports))]);
   const views = (Object.keys(VIEWS) as ViewName[]).filter((view) => view === "testbed" || session.views.includes(view));
   for (const view of views) {
     const tab = make("button", { type: "button", id: `view-${view}`, onclick: () => void openSafely(engine, session, view) }, VIEWS[view]);

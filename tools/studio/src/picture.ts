@@ -1,7 +1,7 @@
 // The picture: a renderer, a camera, and one diorama or two beside each other.
 import * as three from "three";
 import { Bodies, type Painter } from "./bodies.js";
-import { Drawn, type Lists } from "./engine.js";
+import { Drawn, type Lists, STRIDE, State } from "./engine.js";
 import { FIXED } from "./paint.js";
 import { OVERLAYS, Overlays, type Pin } from "./overlays.js";
 import { SOFTWARE } from "./software.js";
@@ -9,10 +9,17 @@ import type { Stage } from "./stage.js";
 
 const LISTS: Record<string, number> = { contacts: Drawn.contacts, joints: Drawn.joints, bounds: Drawn.bounds, masses: Drawn.masses };
 
+/** A second world in the same place: of its bodies those with these rows, which are clear. */
+export interface Ghost {
+  stage: Stage;
+  has: (row: number) => boolean;
+}
+
 /** A world in its own light. */
 export class Diorama {
   readonly scene = new three.Scene();
   readonly bodies = new Bodies();
+  private readonly ghosts = new Bodies();
   private readonly overlays = new Overlays();
   private readonly sky = new three.HemisphereLight(0xffffff, 0x8899aa, 1.5);
   private readonly sun = new three.DirectionalLight(0xffffff, 2.2);
@@ -20,10 +27,10 @@ export class Diorama {
   lists: Lists | undefined;
 
   /** `pins`: places to point at, of the present tick. */
-  constructor(readonly stage: Stage, readonly paint: Painter, private readonly pins: () => readonly Pin[] = () => []) {
+  constructor(readonly stage: Stage, readonly paint: Painter, private readonly pins: () => readonly Pin[] = () => [], private readonly ghost?: Ghost) {
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.setScalar(SOFTWARE ? 512 : 2048);
-    this.scene.add(this.sky, this.sun, this.sun.target, this.bodies.group, this.overlays.group);
+    this.scene.add(this.sky, this.sun, this.sun.target, this.bodies.group, this.ghosts.group, this.overlays.group);
   }
 
   /** `fraction`: between the last two ticks. */
@@ -37,6 +44,22 @@ export class Diorama {
     // The bodies' outlines may have taken memory: the lists are asked for again.
     this.lists = stage.engine.draw(stage.world, wanted);
     this.overlays.update(this.lists, markSize, pulled, this.pins());
+    if (this.ghost) this.updateGhosts(this.ghost, fraction);
+  }
+
+  dispose(): void {
+    this.bodies.dispose();
+    this.ghosts.dispose();
+  }
+
+  private updateGhosts({ stage, has }: Ghost, fraction: number): void {
+    const { positions, orientations } = stage.view.at(fraction);
+    const list = stage.engine.draw(stage.world, Drawn.bodies).bodies;
+    const clear: number[] = [];
+    for (let at = 0; at < list.length; at += STRIDE.bodies) {
+      if (has(list[at]!)) clear.push(list[at]!, State.trigger, list[at + 2]!, list[at + 3]!);
+    }
+    this.ghosts.update(stage.world, stage.view.bodies, new Float32Array(clear), positions, orientations, this.paint);
   }
 
   light(target: three.Vector3, radius: number, background: three.Color, floor: three.Color, dark: boolean): void {
@@ -55,7 +78,7 @@ export class Diorama {
 
 function withoutTriggers(list: Float32Array): Float32Array {
   const kept: number[] = [];
-  for (let at = 0; at < list.length; at += 4) if (list[at + 1] !== 4) kept.push(...list.subarray(at, at + 4));
+  for (let at = 0; at < list.length; at += STRIDE.bodies) if (list[at + 1] !== State.trigger) kept.push(...list.subarray(at, at + STRIDE.bodies));
   return new Float32Array(kept);
 }
 
@@ -117,6 +140,7 @@ export class Picture {
     this.resize();
     this.aim(dioramas.length);
     const { width, height } = this.size();
+    if (dioramas.length > 1) this.clear(width, height); // the gap between them too
     dioramas.forEach((diorama, i) => {
       diorama.light(this.target, this.radius, this.background, this.floor, this.dark);
       diorama.update(fraction, shown, 0.06 * this.radius, i === 0 ? pulled : null);
@@ -155,6 +179,12 @@ export class Picture {
 
   private size(): { width: number; height: number } {
     return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  private clear(width: number, height: number): void {
+    this.renderer.setScissor(0, 0, width, height);
+    this.renderer.setClearColor(0, 0);
+    this.renderer.clear();
   }
 
   private resize(): void {

@@ -8,7 +8,7 @@ import { LogFile } from "./log_file.js";
 export const SERIES = ["energy", "contacts", "awake"] as const;
 
 export interface ProverTask {
-  wasm: string;
+  module: WebAssembly.Module;
   log: Uint8Array;
   /** Ticks between the states that are sent. */
   every: number;
@@ -25,8 +25,8 @@ export interface ProverNews {
   done: boolean;
 }
 
-async function prove({ wasm, log: bytes, every }: ProverTask): Promise<void> {
-  const engine = await Engine.load(wasm);
+async function prove({ module, log: bytes, every }: ProverTask): Promise<void> {
+  const engine = await Engine.load(module);
   const log = new LogFile(engine, bytes);
   const world = log.makeWorld();
   const states = new States(world, LKS_CANONICAL);

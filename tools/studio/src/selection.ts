@@ -13,12 +13,13 @@ function numbers(values: ArrayLike<number>, digits = 4): string {
 
 export class Selection {
   readonly facts = new Facts("body", NAMES);
-  private isFollowed = false;
-  readonly element = section("Body", this.facts.element, toggle("follow", "follow", false, (on) => (this.isFollowed = on)));
+  readonly element: HTMLElement;
   /** The id; 0: none. */
   id = 0n;
 
-  constructor() {
+  /** `isFollowed`: whether the camera goes along with a chosen body, until the person wants it otherwise. */
+  constructor(private isFollowed = false) {
+    this.element = section("Body", this.facts.element, toggle("follow", "follow", isFollowed, (on) => (this.isFollowed = on)));
     this.set(0n);
   }
 

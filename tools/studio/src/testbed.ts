@@ -56,6 +56,7 @@ export class Testbed implements Mode {
     this.lead = this.open(seen.scene, seen.seed);
     this.lead.replay(seen.journal, Math.min(seen.tick, 36_000), () => this.measure());
     if (seen.camera.length === 6) picture.pose = seen.camera;
+    else if (seen.tick > 0) picture.frame(this.lead);
     this.buildPanel();
     this.measure();
   }
@@ -151,12 +152,12 @@ export class Testbed implements Mode {
 
   destroy(): void {
     this.lead.destroy();
-    for (const diorama of this.dioramas) diorama.bodies.dispose();
+    for (const diorama of this.dioramas) diorama.dispose();
   }
 
   private open(name: string, seed: bigint, own?: OwnScene): TestbedStage {
     const stage = new TestbedStage(this.engine, name, seed, own);
-    for (const diorama of this.dioramas) diorama.bodies.dispose();
+    for (const diorama of this.dioramas) diorama.dispose();
     const paint = painterOf(() => this.colour, () => this.shown.has("sleeping"), () => this.selection.row);
     this.dioramas = [new Diorama(stage, paint)];
     this.held = null;

@@ -116,7 +116,7 @@ export class WorldView implements Mode {
   destroy(): void {
     this.connection.close();
     this.lead.destroy();
-    for (const diorama of this.dioramas) diorama.bodies.dispose();
+    for (const diorama of this.dioramas) diorama.dispose();
   }
 
   private hear(): void {

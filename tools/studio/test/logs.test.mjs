@@ -13,7 +13,7 @@ const good = skip ? null : record("good.lks", "--ticks", String(TICKS));
 const flipped = skip ? null : record("flipped.lks", "--ticks", String(TICKS), "--flip-bit-at", String(FLIPPED));
 
 test("a log is proved, scrubbed and saved as a picture", { skip }, () => withStudio([good.path], (address) => withPage(address, async (page) => {
-  const { frames, press, slide, state } = person(page);
+  const { frames, picture, press, slide, state } = person(page);
   // Before the worker has come by: the page goes on drawing while it computes.
   await page.waitForSelector("#proof");
   await slide(TICKS);
@@ -40,6 +40,14 @@ test("a log is proved, scrubbed and saved as a picture", { skip }, () => withStu
   const green = await page.evaluate(() => [...document.getElementById("timeline").getContext("2d").getImageData(200, 2, 1, 1).data]);
   assert.deepEqual(green, [26, 143, 76, 255]);
 
+  // The camera goes to a player, and moves along with it.
+  const unfollowed = await picture();
+  await page.selectOption("#follow-player", "player 1");
+  const followed = await picture();
+  assert.ok(followed !== unfollowed, "the camera stays");
+  await page.selectOption("#follow-player", "nobody");
+  assert.ok(await picture() === followed, "the camera moves");
+
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#shoot")]);
   assert.equal(download.suggestedFilename(), `lockstone-tick-${tick}.png`);
   await download.saveAs(join(scratch, "picture.png"));
@@ -57,7 +65,7 @@ test("a log with a fault says where it is", { skip }, () => withStudio([flipped.
 })));
 
 async function checkDesync(page) {
-  const { pixels, press, slide, frames } = person(page);
+  const { picture, pixels, press, slide, frames } = person(page);
   await page.waitForSelector("#verdict");
   await frames();
   assert.match(await page.textContent("#verdict strong"), new RegExp(`They part in tick ${FLIPPED}$`));
@@ -70,6 +78,16 @@ async function checkDesync(page) {
   assert.match(await page.textContent("#next-step"), /\w/);
   const yellow = await pixels(255, 250, 90, 40);
   assert.ok(yellow > 20, `${yellow} yellow pixels`);
+
+  // One world in the other, and back.
+  const beside = await picture();
+  await page.focus("#picture");
+  await press("o");
+  assert.ok(await page.isChecked("#overlaid"));
+  assert.ok(await picture() !== beside, "the worlds stay beside each other");
+  assert.ok(await pixels(255, 250, 90, 40) > 20);
+  await press("o");
+  assert.ok(await picture() === beside, "the worlds stay in one picture");
 
   await page.click("#go-before");
   await frames();

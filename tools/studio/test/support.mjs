@@ -91,6 +91,15 @@ export function person(page) {
       }, tick);
       await frames();
     },
+    /** The picture, to be compared with another one, as soon as it stays the same: figures of one frame may change the next. */
+    async picture() {
+      for (let last = "";;) {
+        await page.waitForTimeout(300);
+        const now = await page.evaluate(() => document.getElementById("picture").toDataURL());
+        if (now === last) return now;
+        last = now;
+      }
+    },
     /** Counts pixels of the picture near a colour. */
     pixels: (red, green, blue, near = 30) => page.evaluate(([r, g, b, most]) => {
       const picture = document.getElementById("picture");
