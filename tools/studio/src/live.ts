@@ -194,6 +194,7 @@ export class LiveView implements Mode {
     const { client } = this.lead;
     const who = event.slot === SERVER ? "server" : event.slot < SEATS ? client.playerName(event.slot) || `player ${event.slot}` : "";
     if (event.kind === "command" && event.bytes[0] === CHAT) this.write(event.tick, `${who}: ${new TextDecoder().decode(event.bytes.subarray(1))}`);
+    if (event.kind === "finished") this.recording?.finish(client.finishReason ?? "stopped");
     const line = LINES[event.kind];
     if (line) this.write(event.tick, [who, line, event.text].filter((text) => text !== "").join(" "));
   }

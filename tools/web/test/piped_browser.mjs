@@ -90,7 +90,8 @@ function textOf({ text, exception }) {
 export async function withTab(use) {
   const program = process.env.LOCKSTONE_CHROMIUM ?? PROGRAMS.find((path) => existsSync(path));
   const profile = mkdtempSync(join(tmpdir(), "lockstone-browser-"));
-  const browser = spawn(program, [...OPTIONS, `--user-data-dir=${profile}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+  // Some programs are scripts that start the browser: the whole group of processes is ended.
+  const browser = spawn(program, [...OPTIONS, `--user-data-dir=${profile}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
   const ended = new Promise((resolve) => browser.on("close", resolve));
   try {
     const protocol = new Protocol(browser.stdio[4], browser.stdio[3]);
@@ -102,7 +103,7 @@ export async function withTab(use) {
     if (tab.errors.length > 0) throw new Error(tab.errors.join("\n"));
     return result;
   } finally {
-    browser.kill();
+    process.kill(-browser.pid);
     await ended;
     rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
   }
