@@ -27,7 +27,7 @@ export interface Scale {
 }
 
 function plain(unit: string): Scale {
-  return { text: (value) => `${short(value)} ${unit}`, height: (value) => value };
+  return { text: (value) => `${short(value)} ${unit}`.replace(/([kM]) (?=\S)/, "$1"), height: (value) => value };
 }
 
 function short(value: number): string {

@@ -11,7 +11,7 @@ import { LiveStage } from "./live_stage.js";
 import type { Mode } from "./mode.js";
 import { type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
-import { bodyOfPlayer } from "./players.js";
+import { NEAR, bodyOfPlayer } from "./players.js";
 import { Selection } from "./selection.js";
 import type { Live } from "./session.js";
 import { showSection } from "./show.js";
@@ -68,9 +68,9 @@ export class LiveView implements Mode {
   private readonly selection = new Selection();
   private readonly facts = new Facts("live", FACTS);
   private readonly charts = {
-    lead: new Chart("Lead at the server", "ticks", "chart-lead"), received: new Chart("Received", "kB/s", "chart-received"),
-    jitter: new Chart("Jitter buffer", "ms", "chart-jitter"), late: new Chart("Late inputs", "", "chart-late"), again: new Chart("Ticks stepped again", "", "chart-again"),
-    computed: new Chart("Islands computed again", "", "chart-computed"), recalled: new Chart("Islands remembered", "", "chart-recalled"),
+    lead: new Chart("Lead", "ticks", "chart-lead"), received: new Chart("Received", "kB/s", "chart-received"),
+    jitter: new Chart("Jitter buffer", "ms", "chart-jitter"), late: new Chart("Late inputs", "", "chart-late"), again: new Chart("Ticks again", "", "chart-again"),
+    computed: new Chart("Islands again", "", "chart-computed"), recalled: new Chart("Remembered", "", "chart-recalled"),
   };
   private readonly lines = make("div", { class: "events", id: "live-events" });
   private readonly told = make("p", { id: "live-told", hidden: true });
@@ -147,6 +147,7 @@ export class LiveView implements Mode {
     this.selection.set(0n);
     this.picture.frame(stage);
     this.controls = stage.client.slot < SEATS ? new Controls() : null;
+    if (this.plays) this.picture.distance = NEAR;
     this.own = 0n;
     this.before = { again: 0, computed: 0, recalled: 0 };
     this.received.length = 0;

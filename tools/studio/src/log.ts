@@ -9,7 +9,7 @@ import { LogStage, Proof } from "./log_stage.js";
 import type { Mode } from "./mode.js";
 import { type Colouring, painterOf } from "./paint.js";
 import { Diorama, type Picture } from "./picture.js";
-import { bodyOfPlayer } from "./players.js";
+import { NEAR, bodyOfPlayer } from "./players.js";
 import { type ProverNews, type ProverTask, SERIES } from "./prover.js";
 import { Selection } from "./selection.js";
 import { showSection } from "./show.js";
@@ -17,7 +17,6 @@ import { showSection } from "./show.js";
 const STATE_EVERY = 15; // ticks: a scrub computes fewer
 const WORK_MS = 40; // of a frame, to compute towards a tick
 const NOBODY = "nobody";
-const NEAR = 0.7; // of the camera at a player, in radii of the scene
 const FACTS = ["game", "build", "match", "seed", "length", "players", "end"] as const;
 
 export class LogView implements Mode {
