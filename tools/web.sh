@@ -97,7 +97,7 @@ run_tests() {
   LOCKSTONE_WEB_SCENES=$scenes LOCKSTONE_WEB_MATCH=$match node --test tools/web/test/*.test.mjs
 }
 
-# brief: what tools/test.sh --browser runs. Its match is without encryption, whose functions are packages of npm.
+# brief: for tools/test.sh --browser. Its match is without encryption, whose functions are packages of npm.
 brief() {
   require_packages demo web-brief
   command -v chromium >/dev/null || require_packages web-brief-browser
