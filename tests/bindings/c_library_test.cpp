@@ -14,6 +14,7 @@
 #include <lockstone/replay/verifier.h>
 #include <lockstone/shape_pair.h>
 
+#include "tests/support/sample_level.h"
 #include "tools/bindings/c/call.h"
 #include "tools/scenes/play.h"
 #include "tools/scenes/scene_simulation.h"
@@ -84,6 +85,26 @@ TEST(CLibrary, FitsTheShapesOfTheCore) {
   EXPECT_EQ(pose.orientation.w, fitted.orientation.w.raw);
   EXPECT_EQ(lks_fit(LKS_HULL, raw.data(), raw.size(), &shape, &pose), LKS_INVALID_ARGUMENT);
   EXPECT_EQ(lks_fit(LKS_BOX, raw.data(), 0, &shape, &pose), LKS_INVALID_ARGUMENT);
+}
+
+TEST(CLibrary, FindsThePartsOfACompoundWithMeshes) {
+  const auto level = test::sample_level();
+  lks_assets* assets = nullptr;
+  ASSERT_EQ(lks_assets_create(&assets), LKS_OK);
+  std::uint64_t id = 0;
+  const std::vector<std::byte> bytes = level->canonical_bytes();
+  EXPECT_EQ(lks_assets_add_bytes(assets, bytes.data(), bytes.size(), &id), LKS_NOT_FOUND);
+  const std::vector<std::byte> mesh = test::sample_panels()->canonical_bytes();
+  ASSERT_EQ(lks_assets_add_bytes(assets, mesh.data(), mesh.size(), &id), LKS_OK);
+  ASSERT_EQ(lks_assets_add_bytes(assets, bytes.data(), bytes.size(), &id), LKS_OK);
+  std::uint32_t child = 0, triangle = 0;
+  for (const std::uint32_t part : {1U, 3U, 256U, 259U, 260U, 263U}) {
+    const CompoundPart found = level->find_part(part).value();
+    EXPECT_EQ(lks_assets_find_part(assets, id, part, &child, &triangle), LKS_OK);
+    EXPECT_EQ((CompoundPart{child, triangle}), found) << part;
+  }
+  EXPECT_EQ(lks_assets_find_part(assets, id, 264, &child, &triangle), LKS_NOT_FOUND);
+  lks_assets_destroy(assets);
 }
 
 // A hull of the set 3 m above a ball.

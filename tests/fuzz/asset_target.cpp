@@ -12,7 +12,7 @@
 #include <lockstone/world.h>
 
 #include "tests/fuzz/target.h"
-#include "tests/support/sample_assets.h"
+#include "tests/support/sample_level.h"
 
 namespace lockstone::fuzz {
 namespace {
@@ -23,6 +23,7 @@ std::vector<Bytes> seeds() {
   std::vector<Bytes> all;
   for (const AssetPtr& asset : test::sample_assets())
     all.push_back(asset->canonical_bytes());
+  all.push_back(test::sample_level()->canonical_bytes());
   return all;
 }
 
@@ -46,7 +47,7 @@ void use(const AssetPtr& asset) {
 }
 
 bool run(ByteView bytes) {
-  static const AssetSet known({test::sample_hull()});
+  static const AssetSet known({test::sample_hull(), test::sample_panels()});
   const Result<AssetPtr> asset = load_asset(bytes, known);
   if (!asset.ok()) return false;
   const Bytes again = asset.value()->canonical_bytes();

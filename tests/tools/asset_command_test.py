@@ -159,7 +159,51 @@ class Models(Case):
         files = [m["file"] for m in made]
         self.assertEqual(json.loads(self.expect(OK, "info", "--json", *files).stdout), made)
         alone = self.expect(CORRUPT, "info", files[0])
-        self.assertIn("hull of this compound", alone.stderr)
+        self.assertIn("hull or mesh of this compound", alone.stderr)
+
+    def test_named_objects_of_a_compound_stay_meshes(self):
+        level = self.write("level.obj", "o floor\nv -4 0 -4\nv -4 0 4\nv 4 0 4\nv 4 0 -4\nf 1 2 3 4\n"
+                           "o post\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 2 0\nf 5 6 7\nf 5 6 8\nf 6 7 8\nf 5 7 8\n")
+        done = self.expect(OK, "build", level, "--as", "compound", "--mesh", "floor", "--json")
+        compound, *children = json.loads(done.stdout)
+        self.assertEqual((compound["kind"], compound["children"]), ("compound", 2))
+        self.assertNotIn("mass", compound)
+        by_kind = {child["kind"]: child["id"] for child in children}
+        self.assertEqual((compound["meshes"], compound["hulls"]), ([by_kind["mesh"]], [by_kind["hull"]]))
+        files = [compound["file"]] + [child["file"] for child in children]
+        self.assertEqual(json.loads(self.expect(OK, "info", "--json", *files).stdout), [compound] + children)
+        self.assertIn("no object 'roof'", self.refuse(level, "--as", "compound", "--mesh", "roof"))
+        self.assertIn("'floor': ", self.refuse(level, "--as", "compound"))  # flat: no hull
+        self.expect(USAGE, "build", level, "--mesh", "floor")
+
+    def test_factors_scale_along_the_axes(self):
+        for kind in ("hull", "mesh"):
+            made = self.build(MODELS / "cube.obj", "--as", kind, "--factors", "2,0.5,3")
+            self.assertEqual((made["lower"], made["upper"]), ([-2, -0.5, -3], [2, 0.5, 3]))
+            twice = self.build(MODELS / "cube.obj", "--as", kind, "--factors", "2", name="twice.lka")
+            self.assertEqual(twice["id"], self.build(MODELS / "cube.obj", "--as", kind, "--scale", "2")["id"])
+            half = self.build(self.folder / "twice.lka", "--factors", "0.5", name="half.lka")
+            self.assertEqual(half["id"], self.build(MODELS / "cube.obj", "--as", kind)["id"])
+        mirrored = self.build(MODELS / "tetrahedron.obj", "--as", "hull", "--factors=-1,1,1")
+        self.assertEqual((mirrored["lower"], mirrored["upper"]), ([-1, 0, 0], [0, 1, 1]))
+        slope = self.write("slope.png", png(3, 3, lambda x, y: 20000 * x))
+        self.assertEqual(self.build(slope, "--height", "10", "--factors", "2,3,4")["upper"][1],
+                         self.build(slope, "--height", "30")["upper"][1])
+
+    def test_factors_that_cannot_be_are_refused(self):
+        cube = MODELS / "cube.obj"
+        self.assertIn("out of range", self.refuse(cube, "--factors", "600,1,1"))
+        self.assertIn("scaled: ", self.refuse(cube, "--factors", "1,0,1"))
+        self.assertIn("only a hull, mesh or height field",
+                      self.refuse(MODELS / "table.obj", "--as", "compound", "--factors", "2"))
+        made = self.folder / "made.lka"
+        self.expect(OK, "build", cube, "-o", made)
+        for bad in (["build", cube, "--factors", "1,2"], ["build", cube, "--factors", "1,2,3,4"],
+                    ["build", cube, "--factors", "one"],
+                    ["build", made, "-o", "b.lka"], ["build", made, "--factors", "2"],
+                    ["build", made, "--factors", "2", "-o", "b.lka", "--as", "hull"]):
+            self.expect(USAGE, *bad)
+        self.refuse(self.write("bad.lka", b"LKSA"), "--factors", "2")
 
     def test_dropped_triangles_are_told(self):
         text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 2 3 1\nf 1 1 2\n"

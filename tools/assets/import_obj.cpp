@@ -43,16 +43,24 @@ void note_dropped(std::uint32_t count, std::string_view what, Imported& out) {
   if (count != 0) out.notes.push_back(fmt::format("dropped {} {}", count, what));
 }
 
-ImportOutcome build_mesh(const ObjModel& model, const ObjImport& options,
-                         const std::vector<std::uint8_t>& surface_of, Imported& out) {
-  if (model.triangles.empty()) return fault_at(0, "no faces");
+/// The object of a triangle: a group, where the file names no objects.
+std::uint32_t object_of(const ObjModel& model, const ObjTriangle& triangle) {
+  return model.objects.size() > 1 ? triangle.object : triangle.group;
+}
+
+/// Of the triangles for which `is_in(triangle)` holds.
+template <class IsIn>
+ImportOutcome build_mesh_of(const ObjModel& model, const ObjImport& options,
+                            const std::vector<std::uint8_t>& surface_of, IsIn&& is_in,
+                            AssetPtr& made, Imported& out) {
   std::vector<TriangleIndices> triangles;
   std::vector<std::uint8_t> triangle_surfaces;
   std::vector<std::uint16_t> groups;
   for (const ObjTriangle& t : model.triangles) {
+    if (!is_in(t)) continue;
     triangles.push_back(t.corners);
     if (!options.surfaces.empty()) triangle_surfaces.push_back(surface_of[t.material]);
-    const std::uint32_t group = model.objects.size() > 1 ? t.object : t.group;
+    const std::uint32_t group = object_of(model, t);
     if (options.groups) groups.push_back(static_cast<std::uint16_t>(std::min(group, 0xffffU)));
   }
   std::vector<Surface> surfaces;
@@ -67,11 +75,18 @@ ImportOutcome build_mesh(const ObjModel& model, const ObjImport& options,
   def.triangle_groups = groups;
   const MeshResult built = Mesh::build(def);
   if (!built.ok()) return fault_at(line_of(built, model), to_string(built.fault));
-  out.asset = built.mesh;
+  made = built.mesh;
   note_dropped(built.welded_vertices, "vertices equal to others", out);
   note_dropped(built.degenerate_triangles, "triangles without area", out);
   note_dropped(built.duplicate_triangles, "repeated triangles", out);
   return std::nullopt;
+}
+
+ImportOutcome build_mesh(const ObjModel& model, const ObjImport& options,
+                         const std::vector<std::uint8_t>& surface_of, Imported& out) {
+  if (model.triangles.empty()) return fault_at(0, "no faces");
+  const auto all = [](const ObjTriangle&) { return true; };
+  return build_mesh_of(model, options, surface_of, all, out.asset, out);
 }
 
 HullResult hull_of(const Points& points, const ObjImport& options) {
@@ -98,12 +113,11 @@ struct ObjectFaces {
 using Objects = std::map<std::uint32_t, ObjectFaces>;
 
 Objects objects_of(const ObjModel& model, const std::vector<std::uint8_t>& surface_of) {
-  const bool by_object = model.objects.size() > 1;
   Objects objects;
   for (const ObjTriangle& t : model.triangles) {
     const std::uint8_t surface = surface_of[t.material];
     const auto [at, is_new] =
-        objects.try_emplace(by_object ? t.object : t.group, ObjectFaces{{}, t.line, surface});
+        objects.try_emplace(object_of(model, t), ObjectFaces{{}, t.line, surface});
     ObjectFaces& faces = at->second;
     for (const std::uint32_t corner : {t.corners.a, t.corners.b, t.corners.c})
       faces.vertices.push_back(corner);
@@ -121,20 +135,35 @@ Points points_of(const ObjModel& model, std::vector<std::uint32_t> vertices) {
   return points;
 }
 
+/// A name of an object that is none, or nothing.
+ImportOutcome check_meshes(const std::vector<std::string>& names, const ObjImport& options) {
+  for (const std::string& mesh : options.meshes)
+    if (std::ranges::find(names, mesh) == names.end())
+      return fault_at(0, fmt::format("no object '{}'", mesh));
+  return std::nullopt;
+}
+
 ImportOutcome build_compound(const ObjModel& model, const ObjImport& options,
                              const std::vector<std::uint8_t>& surface_of, Imported& out) {
   const auto& names = model.objects.size() > 1 ? model.objects : model.groups;
+  if (ImportOutcome fault = check_meshes(names, options)) return fault;
   std::vector<CompoundChild> children;
   for (const auto& [index, faces] : objects_of(model, surface_of)) {
-    const HullResult built = hull_of(points_of(model, faces.vertices), options);
-    const std::string_view reason = to_string(built.fault);
-    if (!built.ok()) return fault_at(faces.line, fmt::format("'{}': {}", names[index], reason));
     CompoundChild child;
-    child.shape = built.hull->shape();
-    child.asset = built.hull;
-    if (faces.surface != k_own_surface) child.surface = options.surfaces[faces.surface].second;
+    if (std::ranges::find(options.meshes, names[index]) != options.meshes.end()) {
+      const auto is_in = [&](const ObjTriangle& t) { return object_of(model, t) == index; };
+      if (ImportOutcome fault = build_mesh_of(model, options, surface_of, is_in, child.asset, out))
+        return fault_at(faces.line, fmt::format("'{}': {}", names[index], fault->reason));
+    } else {
+      const HullResult built = hull_of(points_of(model, faces.vertices), options);
+      const std::string_view reason = to_string(built.fault);
+      if (!built.ok()) return fault_at(faces.line, fmt::format("'{}': {}", names[index], reason));
+      child.asset = built.hull;
+      if (faces.surface != k_own_surface) child.surface = options.surfaces[faces.surface].second;
+    }
+    child.shape = child.asset->shape();
     children.push_back(child);
-    out.hulls.push_back(built.hull);
+    out.children.push_back(child.asset);
   }
   const CompoundResult built = Compound::build(children);
   if (!built.ok()) return fault_at(0, to_string(built.fault));

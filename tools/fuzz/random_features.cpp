@@ -1,6 +1,7 @@
 #include "tools/fuzz/random_features.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <lockstone/path.h>
@@ -227,10 +228,56 @@ void drive_panels(World& world, std::uint64_t seed) {
   }
 }
 
+// A level of which groups are switched, in a third of all scenes. Draws its numbers apart.
+void drive_level(World& world, std::uint64_t seed) {
+  Random gate(mix(seed ^ 0x6c6576656c));
+  if (!chance(gate, 3)) return;
+  Random random(mix(~seed ^ mix(world.tick() + 19)));
+  const Shape shape = random_level()->shape();
+  if (world.tick() == 0) {
+    BodyDef level;
+    level.motion = static_cast<MotionType>(1 + random.below(2));
+    level.shape = shape;
+    level.position.y = scenes::millimetres(random.between(-2000, 1000));
+    level.orientation = chance(random, 2) ? scenes::random_orientation(random) : Quat{};
+    level.is_trigger = chance(random, 8);
+    (void)world.create_body(level);
+  }
+  if (!chance(random, 3)) return;
+  for (std::uint32_t i = 0; i < world.body_limit(); ++i) {
+    const BodyHandle body = world.body_at(i);
+    if (body.is_null() || world.body(body).shape.asset != shape.asset) continue;
+    const std::uint32_t group = random.below(k_panels * k_panels + 1);
+    const bool is_on = chance(random, 2);
+    (void)world.apply(SetMeshGroup{body, group, is_on});
+  }
+}
+
 }  // namespace
 
 AssetPtr random_panels() {
   return scenes::panels(k_panels, k_panels, 2000);
+}
+
+namespace {
+
+AssetPtr make_level() {
+  std::array<CompoundChild, 3> children;
+  children[0].asset = random_panels();
+  children[1].asset = scenes::bowl(4_m, 1.5_m, 6, 12);
+  for (CompoundChild* mesh : {&children[0], &children[1]})
+    mesh->shape = mesh->asset->shape();
+  children[1].position = {9_m, {}, {}};
+  children[1].orientation = from_axis_angle(scenes::k_z_axis, 0.3_rad);
+  children[2] = scenes::box_child({-6_m, -1_m, {}}, {1_m, 1_m, 3_m});
+  return scenes::compound_of(children);
+}
+
+}  // namespace
+
+AssetPtr random_level() {
+  static const AssetPtr k_level = make_level();
+  return k_level;
 }
 
 AssetPtr random_path(std::uint64_t seed) {
@@ -261,6 +308,7 @@ void drive_features(World& world, std::uint64_t seed) {
   drive_turning_locks(world, seed);
   drive_tracks(world, seed);
   drive_panels(world, seed);
+  drive_level(world, seed);
   drive_terrain(world, seed);
 }
 

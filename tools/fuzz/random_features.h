@@ -41,6 +41,9 @@ void drive_events(World& world, std::uint64_t seed);
 /// The floor of panels that some scenes have.
 [[nodiscard]] AssetPtr random_panels();
 
+/// The level that some scenes have: a compound of that floor, a bowl and a box.
+[[nodiscard]] AssetPtr random_level();
+
 /// Changes of bodies, fluids, rules, vehicles, locks of joints, ratchets, path joints, terrain and
 /// groups of meshes, now and then, and of events as above. The world may refuse some.
 void drive_features(World& world, std::uint64_t seed);

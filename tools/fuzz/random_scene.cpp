@@ -343,6 +343,7 @@ RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims
   std::vector<AssetPtr> assets = random_assets(random);
   assets.push_back(random_path(seed_));
   assets.push_back(random_panels());
+  assets.push_back(random_level());
   assets_ = std::make_shared<const AssetSet>(std::move(assets));
 }
 
@@ -354,9 +355,9 @@ World RandomScene::make(BroadPhaseKind broad_phase) const {
   const Neighbourhood around(random);
   const int bodies = random.between(1, 24);
   std::vector<AssetPtr> shapes(assets_->all().begin(), assets_->all().end());
-  const AssetId floor = random_panels()->id();
+  const AssetId floor = random_panels()->id(), level = random_level()->id();
   std::erase_if(shapes, [&](const AssetPtr& asset) {
-    return asset->kind() == ShapeKind::path || asset->id() == floor;
+    return asset->kind() == ShapeKind::path || asset->id() == floor || asset->id() == level;
   });
   for (int i = 0; i < bodies; ++i)
     (void)world.create_body(random_body(random, around, shapes, with_rims_));

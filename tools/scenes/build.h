@@ -61,6 +61,7 @@ extern const Scene k_rollers, k_drums, k_cones, k_coins, k_clubs;        // rims
 extern const Scene k_dice, k_pebbles;                                    // rounded.cpp
 extern const Scene k_bullets;                                            // bullets.cpp
 extern const Scene k_layers;                                             // layers.cpp
+extern const Scene k_level;                                              // level.cpp
 extern const Scene k_belts;                                              // belts.cpp
 extern const Scene k_crowd, k_characters;                                // crowd.cpp
 extern const Scene k_arch, k_cards;                                      // masonry.cpp

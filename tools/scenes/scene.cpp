@@ -14,7 +14,8 @@ std::span<const Scene> world_scenes() {
       k_chain,     k_pendulum,  k_bridge,  k_ragdoll,       k_vehicle,      k_arch,   k_cards,
       k_belts,     k_rollers,   k_drums,   k_cones,         k_coins,        k_crowd,  k_boats,
       k_explosion, k_one_way,   k_race,    k_ragdoll_drive, k_terrain_edit, k_clubs,  k_coaster,
-      k_ratchets,  k_trapdoors, k_dice,    k_pebbles,       k_motorcycle,   k_tank,   k_characters};
+      k_ratchets,  k_trapdoors, k_dice,    k_pebbles,       k_motorcycle,   k_tank,   k_characters,
+      k_level};
   return k_scenes;
 }
 

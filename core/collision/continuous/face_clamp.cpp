@@ -34,7 +34,7 @@ class ThinPieces final : public PieceVisitor {
     const PointWay way{saturated<Length>(to_local(mesh_, middle)),
                        saturated<Length>(to_local(mesh_, end))};
     LKS_ASSERT(mesh_.asset != nullptr);
-    const geometry::AssetGeometry& asset = *mesh_.asset;
+    const geometry::AssetGeometry& asset = *mesh_.asset->triangles();
     const FrontCrossing crossing = asset.mesh_kernels()->first_crossing(asset, way);
     if (!crossing.found || (best_.found && crossing.fraction >= best_.fraction)) return;
     LKS_ASSERT(crossing.fraction >= Unit{} && crossing.fraction <= Unit::from_integer(1));

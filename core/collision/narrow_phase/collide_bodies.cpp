@@ -94,12 +94,13 @@ void add_singles(const BodyPair& pair, const HeldFeatures& held, PartContacts& o
 void add_triangles(const BodyPair& pair, const Piece& a, TriangleScratch& scratch,
                    PartContacts& out) {
   const Piece mesh = {pair.b.shape, nullptr, pair.b.origin, pair.b.rotation, 0, nullptr, {}};
-  LKS_ASSERT(pair.b.asset != nullptr);
+  LKS_ASSERT(pair.b.asset != nullptr && pair.b.asset->triangles() != nullptr);
+  const geometry::AssetGeometry& triangles = *pair.b.asset->triangles();
   const PosedShape shape = a.posed();
   const Vec3<Length> offset = saturated<Length>(a.origin - mesh.origin);
-  pair.b.asset->mesh_kernels()->collide(*pair.b.asset, {mesh.rotation, shape, offset, pair.margin},
-                                        local_region(pair.b, oriented_box(a), pair.margin),
-                                        scratch.contacts, scratch.manifolds);
+  triangles.mesh_kernels()->collide(triangles, {mesh.rotation, shape, offset, pair.margin},
+                                    local_region(pair.b, oriented_box(a), pair.margin),
+                                    scratch.contacts, scratch.manifolds);
   out.overflowed =
       out.overflowed || scratch.contacts.left_out() != 0 || scratch.manifolds.left_out != 0;
   for (std::size_t i = 0; i < scratch.manifolds.count; ++i) {
@@ -109,6 +110,17 @@ void add_triangles(const BodyPair& pair, const Piece& a, TriangleScratch& scratc
     shift_anchors(pair, a.origin, mesh.origin, contact.manifold);
     out.add(contact);
   }
+}
+
+// One piece of A against the convex parts of B, if it has some beside its triangles.
+void add_solids(const BodyPair& pair, const Piece& a, PartContacts& out) {
+  LKS_ASSERT(pair.b.asset != nullptr);
+  if (pair.b.asset->solids() == nullptr) return;
+  PlacedShape solids = pair.b;
+  solids.asset = pair.b.asset->solids();
+  auto add = [&](const Piece& b) { add_pieces(pair, a, b, out); };
+  EachPiece<decltype(add)> visitor(add);
+  visit_pieces(solids, oriented_box(a), pair.margin, visitor);
 }
 
 // More than pieces reach from the centre of their body, and so little that offsets of pieces stay
@@ -153,7 +165,10 @@ void collide_near(const BodyPair& pair, const HeldFeatures& held, TriangleScratc
   if (is_single(pair.a) && is_single(pair.b)) return add_singles(pair, held, out);
   if (pair.b.asset != nullptr && pair.b.asset->mesh_kernels() != nullptr) {
     LKS_CHECK(scratch != nullptr);
-    for_each_piece_of_a(pair, [&](const Piece& pa) { add_triangles(pair, pa, *scratch, out); });
+    for_each_piece_of_a(pair, [&](const Piece& pa) {
+      add_solids(pair, pa, out);
+      add_triangles(pair, pa, *scratch, out);
+    });
     return;
   }
   for_each_pair_of_pieces(pair,

@@ -57,10 +57,9 @@ struct TriangleScratch {
 };
 
 /// All contacts between two placed shapes; `out` is filled again. Each pair of convex parts gives a
-/// manifold, as `collide` finds it; the triangles of a mesh or height field give one for each plane
-/// and surface, whose key stands for the part. Of half-spaces, meshes and height fields only B may
-/// be one. `scratch` may be null when B has no triangles. `held`: as in `collide`, of two single
-/// shapes.
+/// manifold, as `collide` finds it; triangles give one for each plane and surface, whose key stands
+/// for the part. Of half-spaces and assets with triangles only B may be one. `scratch` may be null
+/// when B has no triangles. `held`: as in `collide`, of two single shapes.
 void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
                     TriangleScratch* scratch, PartContacts& out, const HeldFeatures& held = {});
 

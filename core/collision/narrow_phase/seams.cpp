@@ -118,8 +118,10 @@ void for_each_piece_at(const PlacedShape& placed, const Vec3<Position>& point, F
   visit_pieces(brought_near(placed, point), {point, Mat3{}, {}}, k_triangle_depth, visitor);
 }
 
+// A contact with triangles has a key, which is no convex part's number.
 bool is_part(const Piece& piece, std::uint32_t part) {
-  return piece.triangle.is_triangle || piece.part == part;
+  if (part == k_no_part) return false;
+  return piece.triangle.is_triangle ? part >= geometry::k_first_triangle_part : piece.part == part;
 }
 
 }  // namespace
@@ -168,7 +170,7 @@ bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint&
             const Vec3<Position>& viewer) {
   bool found = false;
   for_each_piece_at(placed, at.point, [&](const Piece& piece) {
-    if (piece.part == except || is_behind(viewer, piece)) return;
+    if (is_part(piece, except) || is_behind(viewer, piece)) return;
     found = found || (holds(piece, local_point(piece, at.point)) && rise_above(piece, at) > k_rise);
   });
   return found;

@@ -33,8 +33,8 @@ struct TouchedPoint {
   Vec3<Unit> normal{};  ///< away from the shape
 };
 
-/// Part of an asset, 0 of a shape without parts; where an asset has triangles, those at a point
-/// stand for it.
+/// Part of an asset, 0 of a shape without parts. The triangles at a point stand for the key of a
+/// group of triangles.
 struct TouchedPart {
   const PlacedShape& placed;
   std::uint32_t part = 0;

@@ -1,4 +1,4 @@
-// Canonical bytes: asset head · u32 children · per child: u8 kind, 3 × i32 size, u64 hull id,
+// Canonical bytes: asset head · u32 children · per child: u8 kind, 3 × i32 size, u64 id,
 // 3 × i32 position, 4 × i32 orientation, i32 density, u8 has surface, 2 × i32 surface.
 
 #include <algorithm>
@@ -6,6 +6,8 @@
 #include <lockstone/compound.h>
 
 #include "core/geometry/assets/asset_frame.h"
+#include "core/geometry/assets/joined_meshes.h"
+#include "core/geometry/assets/mixed_geometry.h"
 #include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/convex/compound_solid.h"
 #include "core/geometry/convex/shape_properties.h"
@@ -21,6 +23,7 @@ constexpr std::uint16_t k_compound_version = 2;
 constexpr std::size_t k_child_bytes = 1 + 12 + 8 + 12 + 16 + 4 + 1 + geometry::k_surface_bytes;
 constexpr Number k_max_density = Number::from_integer(1024);
 constexpr Number k_min_density = Number::from_ratio(1, 1024);
+static_assert(k_first_compound_triangle == geometry::k_first_triangle_part);
 
 // Left alone when it is as good as normalising makes it, so that doing it twice changes nothing.
 Quat normalized_once(const Quat& q) {
@@ -30,13 +33,23 @@ Quat normalized_once(const Quat& q) {
   return error <= k_bound && error >= -k_bound ? q : normalized(q);
 }
 
-CompoundFault fault_of(const CompoundChild& child) {
-  const bool hull = child.shape.kind == ShapeKind::hull;
-  if (!is_primitive(child.shape.kind) && !hull) return CompoundFault::invalid_shape;
-  if (validate(child.shape) != Status::ok) return CompoundFault::invalid_shape;
+bool is_mesh(const CompoundChild& child) {
+  return child.shape.kind == ShapeKind::mesh;
+}
+
+// Of a child without an asset, or with one of its kind.
+bool has_own_asset(const CompoundChild& child) {
   const AssetId named = child.asset == nullptr ? AssetId{} : child.asset->id();
-  if (named != child.shape.asset_id()) return CompoundFault::missing_asset;
-  if (hull && child.asset->geometry().polytope() == nullptr) return CompoundFault::missing_asset;
+  if (named != child.shape.asset_id()) return false;
+  return child.asset == nullptr || child.asset->kind() == child.shape.kind;
+}
+
+CompoundFault fault_of(const CompoundChild& child) {
+  const ShapeKind kind = child.shape.kind;
+  if (!is_primitive(kind) && kind != ShapeKind::hull && kind != ShapeKind::mesh)
+    return CompoundFault::invalid_shape;
+  if (validate(child.shape) != Status::ok) return CompoundFault::invalid_shape;
+  if (!has_own_asset(child)) return CompoundFault::missing_asset;
   if (!has_direction(child.orientation)) return CompoundFault::invalid_orientation;
   if (child.density < k_min_density || child.density > k_max_density) {
     return CompoundFault::invalid_density;
@@ -109,7 +122,7 @@ std::vector<std::byte> encode(std::span<const CompoundChild> children) {
 }
 
 // Whether it is canonical shows when the compound is built: it must give the same bytes.
-CompoundChild decode_child(ByteReader& reader, const AssetSet& hulls) {
+CompoundChild decode_child(ByteReader& reader, const AssetSet& known) {
   CompoundChild child;
   child.shape.kind = static_cast<ShapeKind>(reader.get<std::uint8_t>());
   child.shape.size = geometry::get_vector(reader);
@@ -123,22 +136,24 @@ CompoundChild decode_child(ByteReader& reader, const AssetSet& hulls) {
   const bool has_surface = reader.get<std::uint8_t>() != 0;
   const Surface surface = geometry::get_surface(reader);
   if (has_surface) child.surface = surface;
-  for (const AssetPtr& hull : hulls.all()) {
-    if (hull->id() == child.shape.asset_id()) child.asset = hull;
+  for (const AssetPtr& asset : known.all()) {
+    if (asset->id() == child.shape.asset_id()) child.asset = asset;
   }
   return child;
 }
 
-// Children that the window meets within the visitor's present limit.
+// Convex children that the window meets within the visitor's present limit.
 template <class Geometry, class Window, class Limit, class Visitor>
 void visit_met(const Geometry& geometry, const Window& window, Limit most, Visitor& visitor) {
   std::int64_t at = 0;
   for (std::size_t i = 0; i < geometry.children.size(); ++i) {
+    if (is_mesh(geometry.children[i])) continue;
     if (window.meets(geometry.placed[i].bounds, window.limit_of(most), at))
       most = visitor.visit(geometry.part(i));
   }
 }
 
+// All children, of which the convex ones are its parts: meshes are joined beside it.
 struct CompoundGeometry final : geometry::AssetGeometry {
   struct Placed {
     Mat3 rotation;
@@ -149,15 +164,20 @@ struct CompoundGeometry final : geometry::AssetGeometry {
   std::vector<Placed> placed;  // by child
   LocalBounds all_bounds;
   geometry::Solid whole;
+  bool has_meshes = false;
 
   [[nodiscard]] geometry::Part part(std::size_t index) const;
   void derive();
 
   [[nodiscard]] const LocalBounds& bounds() const override { return all_bounds; }
-  [[nodiscard]] const geometry::Solid* solid() const override { return &whole; }
+  [[nodiscard]] const geometry::Solid* solid() const override {
+    return has_meshes ? nullptr : &whole;
+  }
+  [[nodiscard]] const geometry::AssetGeometry* solids() const override { return this; }
   void visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const override {
     for (std::size_t i = 0; i < children.size(); ++i)
-      if (geometry::overlap(region, placed[i].bounds)) visitor.visit(part(i));
+      if (!is_mesh(children[i]) && geometry::overlap(region, placed[i].bounds))
+        visitor.visit(part(i));
   }
   void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
                           const Vec3<Length>& reach,
@@ -178,6 +198,8 @@ void CompoundGeometry::derive() {
     placed.push_back({rotation, bounds_of(child, rotation)});
     all_bounds =
         placed.size() == 1 ? placed.front().bounds : united(all_bounds, placed.back().bounds);
+    has_meshes = has_meshes || is_mesh(child);
+    if (has_meshes) continue;
     geometry::PlacedSolid part{
         child.asset != nullptr ? *child.asset->geometry().solid() : geometry::solid_of(child.shape),
         child.position,
@@ -188,7 +210,7 @@ void CompoundGeometry::derive() {
     part.weight = block_float(weight, part.solid.volume.exponent - Number::frac_bits);
     solids.push_back(part);
   }
-  if (is_in_range(all_bounds)) whole = geometry::combined(solids);
+  if (is_in_range(all_bounds) && !has_meshes) whole = geometry::combined(solids);
 }
 
 geometry::Part CompoundGeometry::part(std::size_t index) const {
@@ -203,7 +225,37 @@ geometry::Part CompoundGeometry::part(std::size_t index) const {
 }
 
 const CompoundGeometry& geometry_of(const Compound& compound) {
-  return static_cast<const CompoundGeometry&>(compound.geometry());
+  return static_cast<const CompoundGeometry&>(*compound.geometry().solids());
+}
+
+const geometry::MeshJoining* joining_of(std::span<const CompoundChild> children) {
+  const auto mesh = std::ranges::find_if(children, is_mesh);
+  return mesh == children.end() ? nullptr : mesh->asset->geometry().mesh_joining();
+}
+
+geometry::JoinedMeshes join_meshes(const CompoundGeometry& compound) {
+  std::vector<geometry::PlacedMesh> meshes;
+  for (std::uint32_t i = 0; i < compound.children.size(); ++i) {
+    const CompoundChild& child = compound.children[i];
+    if (!is_mesh(child)) continue;
+    meshes.push_back({i, child.asset->geometry(), child.position, compound.placed[i].rotation,
+                      child.surface ? &*child.surface : nullptr});
+  }
+  return joining_of(compound.children)->join(meshes);
+}
+
+CompoundFault fault_of(geometry::JoinFault fault) {
+  switch (fault) {
+    case geometry::JoinFault::none:
+      return CompoundFault::none;
+    case geometry::JoinFault::empty:
+      return CompoundFault::no_triangles;
+    case geometry::JoinFault::too_many_triangles:
+      return CompoundFault::too_many_triangles;
+    case geometry::JoinFault::too_many_surfaces:
+      return CompoundFault::too_many_surfaces;
+  }
+  return CompoundFault::none;
 }
 
 }  // namespace
@@ -217,9 +269,9 @@ std::string_view to_string(CompoundFault fault) {
     case CompoundFault::too_many_children:
       return "too many children";
     case CompoundFault::invalid_shape:
-      return "a child's shape is not a valid sphere, capsule, box or hull";
+      return "a child's shape is not a valid primitive, hull or mesh";
     case CompoundFault::missing_asset:
-      return "a child's hull is missing";
+      return "a child's hull or mesh is missing";
     case CompoundFault::invalid_orientation:
       return "a child's orientation has no direction";
     case CompoundFault::invalid_density:
@@ -228,6 +280,12 @@ std::string_view to_string(CompoundFault fault) {
       return "a child's surface is out of range";
     case CompoundFault::coordinate_out_of_range:
       return "a child reaches too far from the origin";
+    case CompoundFault::no_triangles:
+      return "no triangle of the meshes has area";
+    case CompoundFault::too_many_triangles:
+      return "the meshes have too many triangles together";
+    case CompoundFault::too_many_surfaces:
+      return "the meshes have too many surfaces together";
   }
   return "unknown";
 }
@@ -253,11 +311,20 @@ CompoundResult Compound::build(std::span<const CompoundChild> children) {
     return {nullptr, CompoundFault::coordinate_out_of_range, static_cast<std::uint32_t>(i)};
   }
   const AssetId id = geometry::id_of(encode(made->children));
-  return {std::shared_ptr<const Compound>(new Compound(id, std::move(made)))};
+  std::unique_ptr<const geometry::AssetGeometry> whole;
+  if (made->has_meshes) {
+    geometry::JoinedMeshes joined = join_meshes(*made);
+    if (joined.triangles == nullptr) return {nullptr, fault_of(joined.fault), joined.child};
+    whole = std::make_unique<const geometry::OwnedMixedGeometry>(std::move(made),
+                                                                 std::move(joined.triangles));
+  } else {
+    whole = std::move(made);
+  }
+  return {std::shared_ptr<const Compound>(new Compound(id, std::move(whole)))};
 }
 
 Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
-                                                             const AssetSet& hulls) {
+                                                             const AssetSet& known) {
   ByteReader reader(bytes);
   const Status head = geometry::read_asset_header(reader, ShapeKind::compound, k_compound_version);
   if (head != Status::ok) return head;
@@ -267,7 +334,7 @@ Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
   if (reader.remaining() < count * k_child_bytes) return Status::truncated;
   std::vector<CompoundChild> children;
   for (std::uint32_t i = 0; i < count; ++i) {
-    children.push_back(decode_child(reader, hulls));
+    children.push_back(decode_child(reader, known));
     if (!children.back().shape.asset_id().is_null() && children.back().asset == nullptr) {
       return Status::not_found;
     }
@@ -282,6 +349,17 @@ Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
 std::span<const CompoundChild> Compound::children() const {
   return geometry_of(*this).children;
 }
+
+std::optional<CompoundPart> Compound::find_part(std::uint32_t part) const {
+  if (part < children().size())
+    return is_mesh(children()[part]) ? std::nullopt : std::optional(CompoundPart{part, 0});
+  const geometry::AssetGeometry* joined = geometry().triangles();
+  if (joined == nullptr) return std::nullopt;
+  const geometry::TriangleSource* source = joining_of(children())->source_of(*joined, part);
+  if (source == nullptr) return std::nullopt;
+  return CompoundPart{source->child, source->triangle};
+}
+
 std::vector<std::byte> Compound::canonical_bytes() const {
   return encode(children());
 }

@@ -1,9 +1,12 @@
 // A mesh as a world has switched its groups.
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "core/geometry/assets/mesh_editing.h"
 #include "core/geometry/assets/mesh_geometry.h"
 #include "core/geometry/assets/mesh_walk.h"
+#include "core/geometry/assets/mixed_geometry.h"
 #include "core/geometry/mesh_contact/mesh_kernels.h"
 
 namespace lockstone::geometry {
@@ -39,13 +42,14 @@ class SwitchedTriangles {
   std::span<const HeightTile> tiles_;
 };
 
-/// The geometry of a body some of whose groups are off.
+/// The triangles of a body some of whose groups are off.
 class EditedMesh final : public AssetGeometry {
  public:
   EditedMesh(const AssetGeometry& base, std::span<const HeightTile> tiles)
       : data_(mesh_data(base)), triangles_(data_, tiles) {}
 
   [[nodiscard]] const LocalBounds& bounds() const override { return data_.tree.bounds(); }
+  [[nodiscard]] const AssetGeometry* triangles() const override { return this; }
   [[nodiscard]] const MeshKernels* mesh_kernels() const override {
     return &geometry::mesh_kernels();
   }
@@ -67,8 +71,33 @@ class EditedMesh final : public AssetGeometry {
   SwitchedTriangles triangles_;
 };
 
+/// With the convex parts of a compound, where the body has some.
+class EditedMeshes final : public EditedAssets {
+ public:
+  explicit EditedMeshes(std::uint32_t capacity) : slots_(capacity) {}
+
+  [[nodiscard]] std::uint32_t slots() const override {
+    return static_cast<std::uint32_t>(slots_.size());
+  }
+  const AssetGeometry* set(std::uint32_t slot, const AssetGeometry& base,
+                           std::span<const HeightTile> tiles) override {
+    Slot& place = slots_[slot];
+    const EditedMesh& triangles = place.triangles.emplace(base, tiles);
+    if (base.solids() == nullptr) return &triangles;
+    return &place.mixed.emplace(*base.solids(), triangles);
+  }
+
+ private:
+  struct Slot {
+    std::optional<EditedMesh> triangles;
+    std::optional<MixedGeometry> mixed;
+  };
+
+  std::vector<Slot> slots_;
+};
+
 std::unique_ptr<EditedAssets> make_edited_meshes(std::uint32_t capacity) {
-  return std::make_unique<EditedSlots<EditedMesh>>(capacity);
+  return std::make_unique<EditedMeshes>(capacity);
 }
 
 const LocalBounds* bounds_of_group(const AssetGeometry& geometry, std::uint32_t group) {

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/assets/height_field_data.h"
+#include "core/geometry/convex/asset_geometry.h"
 
 namespace lockstone::geometry {
 
@@ -16,6 +16,7 @@ class HeightFieldGeometry final : public AssetGeometry {
 
   [[nodiscard]] const LocalBounds& bounds() const override { return data_.bounds; }
   [[nodiscard]] const MeshKernels* mesh_kernels() const override;
+  [[nodiscard]] const AssetGeometry* triangles() const override { return this; }
   [[nodiscard]] const HeightEditing* height_editing() const override;
   void visit_parts(const LocalBounds& region, PartVisitor& visitor) const override;
   void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,

@@ -3,6 +3,7 @@
 #include <lockstone/mesh.h>
 
 #include "core/geometry/assets/asset_frame.h"
+#include "core/geometry/assets/joined_meshes.h"
 #include "core/geometry/assets/mesh_editing.h"
 #include "core/geometry/assets/mesh_geometry.h"
 #include "core/geometry/assets/mesh_walk.h"
@@ -135,6 +136,7 @@ MeshData make_mesh_data(TriangleSoup soup, std::vector<Surface> surfaces, Angle 
   soup.triangles = reordered(soup.triangles, order);
   if (!soup.surfaces.empty()) soup.surfaces = reordered(soup.surfaces, order);
   if (!soup.groups.empty()) soup.groups = reordered(soup.groups, order);
+  if (!soup.sources.empty()) soup.sources = reordered(soup.sources, order);
   number_vertices_by_use(soup);
   data.groups = groups_of(soup);
   if (!soup.groups.empty()) data.group_edges = shared_edges(soup);
@@ -165,6 +167,10 @@ const MeshKernels* MeshGeometry::mesh_kernels() const {
 
 const MeshEditing* MeshGeometry::mesh_editing() const {
   return data_.groups.empty() ? nullptr : &geometry::mesh_editing();
+}
+
+const MeshJoining* MeshGeometry::mesh_joining() const {
+  return &geometry::mesh_joining();
 }
 
 void MeshGeometry::visit_parts(const LocalBounds& region, PartVisitor& visitor) const {
@@ -220,7 +226,8 @@ MeshResult Mesh::build(const MeshDef& def) {
   geometry::TriangleSoup soup{{def.vertices.begin(), def.vertices.end()},
                               {def.triangles.begin(), def.triangles.end()},
                               {def.triangle_surfaces.begin(), def.triangle_surfaces.end()},
-                              {def.triangle_groups.begin(), def.triangle_groups.end()}};
+                              {def.triangle_groups.begin(), def.triangle_groups.end()},
+                              {}};
   const geometry::SoupCounts counts = geometry::canonicalise(soup, def.weld_tolerance);
   result.welded_vertices = counts.welded_vertices;
   result.degenerate_triangles = counts.degenerate_triangles;

@@ -11,12 +11,21 @@
 
 namespace lockstone::geometry {
 
+/// A triangle of a child of a compound.
+struct TriangleSource {
+  std::uint32_t child = 0;
+  std::uint32_t triangle = 0;  ///< by its place in the child's mesh
+
+  friend constexpr auto operator<=>(const TriangleSource&, const TriangleSource&) = default;
+};
+
 /// Vertices and triangles before the tree is built.
 struct TriangleSoup {
   std::vector<Vec3<Length>> vertices;
   std::vector<TriangleIndices> triangles;
-  std::vector<std::uint8_t> surfaces;  ///< one for each triangle, or empty: k_own_surface
-  std::vector<std::uint16_t> groups;   ///< one for each triangle, or empty: all 0
+  std::vector<std::uint8_t> surfaces;   ///< one for each triangle, or empty: k_own_surface
+  std::vector<std::uint16_t> groups;    ///< one for each triangle, or empty: all 0
+  std::vector<TriangleSource> sources;  ///< one for each triangle of joined meshes, else empty
 
   [[nodiscard]] TriangleVertices triangle(const TriangleIndices& t) const {
     return {vertices[t.a], vertices[t.b], vertices[t.c]};
@@ -68,6 +77,7 @@ struct MeshData {
   StaticTree tree;
   std::vector<MeshGroup> groups;        ///< ascending; empty of a mesh without groups
   std::vector<SharedEdge> group_edges;  ///< by corner
+  std::uint32_t first_part = 0;         ///< the number of the first triangle as a part
 
   static constexpr std::uint32_t k_active = std::uint32_t{1} << 31;
 

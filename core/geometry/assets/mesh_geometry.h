@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/assets/mesh_data.h"
+#include "core/geometry/convex/asset_geometry.h"
 
 namespace lockstone::geometry {
 
@@ -17,6 +17,8 @@ class MeshGeometry final : public AssetGeometry {
   [[nodiscard]] const LocalBounds& bounds() const override { return data_.tree.bounds(); }
   [[nodiscard]] const MeshKernels* mesh_kernels() const override;
   [[nodiscard]] const MeshEditing* mesh_editing() const override;
+  [[nodiscard]] const MeshJoining* mesh_joining() const override;
+  [[nodiscard]] const AssetGeometry* triangles() const override { return this; }
   void visit_parts(const LocalBounds& region, PartVisitor& visitor) const override;
   void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
                           const Vec3<Length>& reach, WayPartVisitor& visitor) const override;
@@ -27,10 +29,10 @@ class MeshGeometry final : public AssetGeometry {
   MeshData data_;
 };
 
-/// Of a mesh as it was built.
+/// Of a mesh, or of the meshes of a compound, as it was built.
 [[nodiscard]] inline const MeshData& mesh_data(const AssetGeometry& geometry) {
   LKS_ASSERT(geometry.mesh_kernels() != nullptr && geometry.height_editing() == nullptr);
-  return static_cast<const MeshGeometry&>(geometry).data();
+  return static_cast<const MeshGeometry&>(*geometry.triangles()).data();
 }
 
 }  // namespace lockstone::geometry

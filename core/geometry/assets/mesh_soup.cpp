@@ -123,6 +123,7 @@ struct SurfacedTriangle {
   TriangleIndices indices;
   std::uint8_t surface = k_own_surface;
   std::uint16_t group = 0;
+  TriangleSource source;
 
   friend constexpr auto operator<=>(const SurfacedTriangle&, const SurfacedTriangle&) = default;
 };
@@ -137,7 +138,8 @@ void sort_triangles(TriangleSoup& soup, SoupCounts& counts) {
       ++counts.degenerate_triangles;
     } else {
       kept.push_back({lowest_first(t), soup.surfaces.empty() ? k_own_surface : soup.surfaces[i],
-                      soup.groups.empty() ? std::uint16_t{0} : soup.groups[i]});
+                      soup.groups.empty() ? std::uint16_t{0} : soup.groups[i],
+                      soup.sources.empty() ? TriangleSource{} : soup.sources[i]});
     }
   }
   std::sort(kept.begin(), kept.end());
@@ -152,13 +154,16 @@ void sort_triangles(TriangleSoup& soup, SoupCounts& counts) {
   });
   const bool single =
       std::all_of(kept.begin(), kept.end(), [](const SurfacedTriangle& t) { return t.group == 0; });
+  const bool joined = !soup.sources.empty();
   soup.triangles.clear();
   soup.surfaces.clear();
   soup.groups.clear();
+  soup.sources.clear();
   for (const SurfacedTriangle& t : kept) {
     soup.triangles.push_back(t.indices);
     if (!plain) soup.surfaces.push_back(t.surface);
     if (!single) soup.groups.push_back(t.group);
+    if (joined) soup.sources.push_back(t.source);
   }
 }
 

@@ -25,7 +25,8 @@ void visit_triangles(const MeshData& data, const Triangles& triangles, const Loc
     for (std::uint32_t i = first; i < first + count; ++i) {
       const TriangleVertices triangle = data.triangle(i);
       if (!overlap(bounds_of(triangle), region) || !triangles.has(i)) continue;
-      visitor.visit(part.set(i, triangle, triangles.active_edges(i), data.surface(i)));
+      visitor.visit(
+          part.set(data.first_part + i, triangle, triangles.active_edges(i), data.surface(i)));
     }
   });
 }
@@ -40,8 +41,8 @@ void visit_nearest_first(const MeshData& data, const Triangles& triangles, const
       const TriangleVertices triangle = data.triangle(i);
       std::int64_t at = 0;
       if (!window.meets(bounds_of(triangle), limit, at) || !triangles.has(i)) continue;
-      limit = window.limit_of(
-          visitor.visit(part.set(i, triangle, triangles.active_edges(i), data.surface(i))));
+      limit = window.limit_of(visitor.visit(
+          part.set(data.first_part + i, triangle, triangles.active_edges(i), data.surface(i))));
     }
     return limit;
   };

@@ -10,6 +10,7 @@ namespace lockstone::geometry {
 class Curve;
 struct HeightEditing;
 struct MeshEditing;
+struct MeshJoining;
 struct MeshKernels;
 struct Solid;
 
@@ -27,6 +28,12 @@ class AssetGeometry {
   /// The polyhedron when the asset is a single convex one.
   [[nodiscard]] virtual const Polytope* polytope() const { return nullptr; }
 
+  /// Its triangles alone: itself where it has no other parts; null of an asset without triangles.
+  [[nodiscard]] virtual const AssetGeometry* triangles() const { return nullptr; }
+
+  /// Its convex parts alone, where it may have triangles too; null of other assets.
+  [[nodiscard]] virtual const AssetGeometry* solids() const { return nullptr; }
+
   /// The kernels that collide with its triangles; null for an asset without triangles.
   [[nodiscard]] virtual const MeshKernels* mesh_kernels() const { return nullptr; }
 
@@ -35,6 +42,9 @@ class AssetGeometry {
 
   /// The functions that switch its groups in a world; null for an asset that is no mesh of groups.
   [[nodiscard]] virtual const MeshEditing* mesh_editing() const { return nullptr; }
+
+  /// The functions that join it with other meshes of a compound; null of an asset that is no mesh.
+  [[nodiscard]] virtual const MeshJoining* mesh_joining() const { return nullptr; }
 
   /// The curve of a path; null for other assets.
   [[nodiscard]] virtual const Curve* curve() const { return nullptr; }

@@ -49,6 +49,10 @@ struct TriangleTopology {
   std::uint8_t active_vertices = 0;  ///< bits 0 … 2: vertices with at least one active edge
 };
 
+/// The number of the first triangle of an asset that has convex parts too: those have lower ones.
+/// Keys of groups of triangles (MeshManifold::key) are above it, in every asset.
+inline constexpr std::uint32_t k_first_triangle_part = 256;
+
 /// A convex piece. Valid only during the visit.
 struct Part {
   std::uint32_t index = 0;             ///< triangle, cell half or child: stable, ascending

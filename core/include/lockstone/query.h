@@ -54,7 +54,7 @@ struct RayHit {
   Unit fraction{};         ///< of the ray, 0 … 1
   Vec3<Unit> normal{};     ///< outward; zero when the ray starts inside
   Vec3<Position> point{};  ///< on the ray
-  std::uint32_t part = 0;  ///< of its asset: triangle, cell or child
+  std::uint32_t part = 0;  ///< of its asset: triangle, cell or child; see Compound::find_part
 };
 
 /// A convex shape (a primitive or a hull) on its way. The orientation stays.

@@ -19,7 +19,7 @@ enum class ShapeKind : std::uint8_t {
   half_space = 4,    ///< everything below a plane; never on a dynamic body
   mesh = 5,          ///< triangles (asset); never on a dynamic body
   height_field = 6,  ///< a terrain (asset); never on a dynamic body
-  compound = 7,      ///< several convex shapes (asset)
+  compound = 7,      ///< several shapes (asset); never on a moving body where one is a mesh
   cylinder = 8,
   cone = 9,
   tapered_capsule = 10,

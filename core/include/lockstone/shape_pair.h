@@ -44,11 +44,11 @@ struct ShapeDistance {
   Vec3<Position> point_b{};
 };
 
-/// The distance of two shapes, of which one at least is a primitive, a hull or a compound; `reach`
-/// is 0 … k_max_cast. Triangles count from both sides; the inside of a mesh is not solid. Error ≤ 2
-/// µm: the plane along the normal separates the two parts by no less. Points are rounded to 1 µm.
-/// Of equal distances that of the lowest part of A counts, then of B. For a depth ask
-/// `shape_contacts`.
+/// The distance of two shapes, of which one at least is a primitive, a hull or a compound without
+/// meshes; `reach` is 0 … k_max_cast. Triangles count from both sides; the inside of a mesh is not
+/// solid. Error ≤ 2 µm: the plane along the normal separates the two parts by no less. Points are
+/// rounded to 1 µm. Of equal distances that of the lowest part of A counts, then of B. For a depth
+/// ask `shape_contacts`.
 [[nodiscard]] Result<ShapeDistance> shape_distance(const ShapeAt& a, const ShapeAt& b,
                                                    Length reach = k_max_cast);
 
@@ -69,9 +69,9 @@ struct ShapeManifold {
 };
 
 /// The manifolds of all points nearer than `margin` (0 … 64 m) or overlapping, as a world has them
-/// for two bodies, by the parts of A, then of B (of B first where A is a half-space, mesh or height
-/// field); as many as `out` holds, at most 64. Returns how many were written. Takes the pairs of
-/// `shape_distance`; triangles push from their front only.
+/// for two bodies, by the parts of A, then of B (of B first where A is a half-space or has
+/// triangles); as many as `out` holds, at most 64. Returns how many were written. Takes the pairs
+/// of `shape_distance`; triangles push from their front only.
 ///
 /// Apart, the least separation is within 2 µm and 4e-9 of the sizes of the distance; of two boxes
 /// within 15 µm, beside a box's rim within 1/2048 of it. Overlapping, the normal is an axis of
@@ -107,11 +107,11 @@ struct ShapeMotion {
   Transform end{};  ///< each coordinate within ±k_max_cast of the start
 };
 
-/// The first fraction of the way at which two primitives, hulls or compounds that may both move and
-/// turn come as near as `gap`, 8 µm … 1 m: there the distance is between `gap` and 5/4 of it, or
-/// less at the start. Before, it is not below `gap` by more than 3 µm and 1e-8 of the sizes,
-/// whatever the turn. After 256 steps, which no test has needed, the place reached stands as the
-/// hit. Compares each part of A with each of B.
+/// The first fraction of the way at which two primitives, hulls or compounds without meshes, which
+/// may both move and turn, come as near as `gap`, 8 µm … 1 m: there the distance is between `gap`
+/// and 5/4 of it, or less at the start. Before, it is not below `gap` by more than 3 µm and 1e-8 of
+/// the sizes, whatever the turn. After 256 steps, which no test has needed, the place reached
+/// stands as the hit. Compares each part of A with each of B.
 [[nodiscard]] Result<ShapeImpact> shape_impact(const ShapeMotion& a, const ShapeMotion& b,
                                                Length gap = Length::from_ratio(1, 2000));
 

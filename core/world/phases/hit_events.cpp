@@ -86,8 +86,11 @@ std::uint32_t part_at(const WorldData& world, std::uint32_t body, const Vec3<Pos
                       std::uint32_t part) {
   constexpr Length k_reach = Length::from_integer(16);  // more than a body moves in most ticks
   const geometry::AssetGeometry* asset = world.cache.asset(body);
-  if (asset == nullptr || asset->mesh_kernels() == nullptr) return part;
-  return closest_point(world.placed(body), point, k_reach).part;
+  if (asset == nullptr || asset->triangles() == nullptr) return part;
+  if (asset->solids() != nullptr && part < geometry::k_first_triangle_part) return part;
+  PlacedShape placed = world.placed(body);
+  placed.asset = asset->triangles();
+  return closest_point(placed, point, k_reach).part;
 }
 
 HitEvents::HitEvents(WorldData& world, TickContacts& found) : world_(world), found_(found) {

@@ -27,8 +27,10 @@ bool is_pose(const Transform& pose) {
 bool is_convex(ShapeKind kind) {
   return is_primitive(kind) || kind == ShapeKind::hull;
 }
-bool is_solid(ShapeKind kind) {
-  return is_convex(kind) || kind == ShapeKind::compound;
+// A compound with meshes is not.
+bool is_solid(const ShapeAt& at) {
+  if (at.shape.kind != ShapeKind::compound) return is_convex(at.shape.kind);
+  return at.asset != nullptr && at.asset->geometry().triangles() == nullptr;
 }
 bool is_half_space(const Shape& shape) {
   return shape.kind == ShapeKind::half_space;
@@ -56,7 +58,7 @@ struct PlacedPair {
 
   PlacedPair(const ShapeAt& at_a, const ShapeAt& at_b) {
     if (!is_shape(at_a) || !is_shape(at_b)) return;
-    if (!is_solid(at_a.shape.kind) && !is_solid(at_b.shape.kind)) return;
+    if (!is_solid(at_a) && !is_solid(at_b)) return;
     const PlacedShape placed_a = placed_at(at_a), placed_b = placed_at(at_b);
     a = brought_near(placed_a, placed_b.origin);
     b = brought_near(placed_b, placed_a.origin);
@@ -108,7 +110,7 @@ struct FrameSweep {
 
   explicit FrameSweep(const ShapeMotion& motion) {
     const ShapeAt& start = motion.start;
-    if (!is_shape(start) || !is_solid(start.shape.kind) || !is_pose(motion.end)) return;
+    if (!is_shape(start) || !is_solid(start) || !is_pose(motion.end)) return;
     placed = placed_at(start);
     const Quat from = normalized(start.pose.orientation);
     sweep = {{start.pose.position, from},
@@ -198,7 +200,7 @@ Result<ShapeDistance> shape_distance(const ShapeAt& a, const ShapeAt& b, Length 
 
 Result<std::size_t> shape_contacts(const ShapeAt& a, const ShapeAt& b, Length margin,
                                    std::span<ShapeManifold> out) {
-  const bool flipped = !is_solid(a.shape.kind);  // only the second may have no inside
+  const bool flipped = !is_solid(a);  // only the second may have no inside
   const PlacedPair pair(flipped ? b : a, flipped ? a : b);
   if (!pair.is_valid || margin < Length{} || margin > k_greatest_margin)
     return Status::invalid_argument;

@@ -91,6 +91,9 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_assets_add_bytes(NULL, text, 1, &number));
   NULLED(lks_assets_add_bytes(assets, NULL, 1, &number));
   NULLED(lks_assets_add_bytes(assets, text, 1, NULL));
+  NULLED(lks_assets_find_part(NULL, 1, 0, &flag, &flag));
+  NULLED(lks_assets_find_part(assets, 1, 0, NULL, &flag));
+  NULLED(lks_assets_find_part(assets, 1, 0, &flag, NULL));
   NULLED(lks_world_def_init(NULL, sizeof def));
   NULLED(lks_world_create(NULL, NULL, &world));
   NULLED(lks_world_create(&def, NULL, NULL));

@@ -297,6 +297,7 @@ static void hulls_are_built_from_points(void) {
   lks_length3 corners[8];
   lks_number3 factors = {lks_number_milli(2000), lks_number_milli(500), lks_number_milli(-1000)};
   uint64_t hull = 0, slab = 0, same = 0;
+  uint32_t child = 7, triangle = 7;
   int i;
   for (i = 0; i < 8; ++i) {
     corners[i].x = lks_length_mm((i & 1) ? 500 : -500);
@@ -320,6 +321,8 @@ static void hulls_are_built_from_points(void) {
   CHECK(same == 0);
   OK(lks_assets_add_scaled(assets, hull, &factors, &same));
   CHECK(same == hull && slab != hull);
+  REFUSED(LKS_NOT_FOUND, lks_assets_find_part(assets, hull, 0, &child, &triangle));
+  CHECK(child == 7 && triangle == 7);
   OK(lks_world_def_init(&def, sizeof def));
   OK(lks_world_create(&def, assets, &world));
   lks_assets_destroy(assets);

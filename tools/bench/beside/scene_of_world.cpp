@@ -104,6 +104,7 @@ bool read_parts(GeneralBody& body, const Compound& compound) {
     GeneralPart& part = body.parts.emplace_back();
     part.position = triple(child.position);
     part.orientation = turn_of(child.orientation);
+    if (child.shape.kind == ShapeKind::mesh) return false;
     if (!read_shape(part, child.shape, child.asset.get())) return false;
   }
   return true;

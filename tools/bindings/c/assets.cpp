@@ -1,7 +1,9 @@
 // Sets of assets.
 #include <algorithm>
 #include <memory>
+#include <optional>
 
+#include <lockstone/compound.h>
 #include <lockstone/fit.h>
 #include <lockstone/hull.h>
 #include <lockstone/load_asset.h>
@@ -220,6 +222,21 @@ lks_status lks_assets_add_bytes(lks_assets* assets, const void* bytes, size_t co
     AssetPtr asset = value_of(load_asset({data, count}, AssetSet(assets->list)));
     *out = asset->id().value;
     assets->list.push_back(std::move(asset));
+  });
+}
+
+lks_status lks_assets_find_part(const lks_assets* assets, uint64_t compound, uint32_t part,
+                                uint32_t* child, uint32_t* triangle) {
+  return call([&] {
+    required(child, "child");
+    required(triangle, "triangle");
+    const Asset& asset = asset_of(required(assets, "assets"), AssetId{compound});
+    if (asset.kind() != ShapeKind::compound)
+      throw_status(LKS_NOT_FOUND, "the asset is no compound");
+    const std::optional<CompoundPart> found = static_cast<const Compound&>(asset).find_part(part);
+    if (!found) throw_status(LKS_NOT_FOUND, "the compound has no such part");
+    *child = found->child;
+    *triangle = found->triangle;
   });
 }
 

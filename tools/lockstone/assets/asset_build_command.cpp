@@ -7,7 +7,11 @@
 #include <fmt/format.h>
 
 #include <lockstone/decimal.h>
+#include <lockstone/height_field.h>
 #include <lockstone/hull.h>
+#include <lockstone/load_asset.h>
+#include <lockstone/mesh.h>
+#include <lockstone/scaled_asset.h>
 
 #include "tools/assets/import.h"
 #include "tools/lockstone/assets/asset_info.h"
@@ -30,6 +34,8 @@ struct BuildOptions {
   std::string kind;
   std::string scale = "1";
   std::vector<std::string> surfaces;
+  std::vector<std::string> meshes;
+  std::string factors;
   std::string weld = "0";
   std::string cell = "1";
   std::string height;
@@ -43,14 +49,15 @@ struct BuildOptions {
   bool json = false;
 };
 
-/// Files of programs, or nothing.
-enum class Source { obj, png, unknown };
+/// Files of programs, an asset as it is, or nothing.
+enum class Source { obj, png, asset, unknown };
 
 Source source_of(const BuildOptions& options) {
   std::string extension = std::filesystem::path(options.input).extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (extension == ".obj") return Source::obj;
+  if (extension == ".lka") return Source::asset;
   return extension == ".png" ? Source::png : Source::unknown;
 }
 
@@ -95,6 +102,9 @@ std::string parse(const BuildOptions& options, assets::ObjImport& import) {
   import.weld_tolerance = weld.value();
   import.groups = options.groups;
   import.reading.banks = options.banks;
+  import.meshes = options.meshes;
+  if (!options.meshes.empty() && import.kind != ShapeKind::compound)
+    return "--mesh: only with --as compound";
   for (const std::string& surface : options.surfaces)
     if (!parse_surface(surface, import)) return "--surface: NAME=FRICTION[,RESTITUTION]";
   return {};
@@ -113,10 +123,10 @@ std::string parse(const BuildOptions& options, assets::PngImport& import) {
 }
 
 /// Beside the compound's file.
-std::string hull_file(const std::string& file, const Asset& hull) {
+std::string child_file(const std::string& file, const Asset& child) {
   const std::filesystem::path path(file);
   const std::string name =
-      fmt::format("{}-{}.lka", path.stem().string(), hash_text(hull.id().value));
+      fmt::format("{}-{}.lka", path.stem().string(), hash_text(child.id().value));
   return (path.parent_path() / name).string();
 }
 
@@ -130,9 +140,9 @@ int write(const BuildOptions& options, const Imported& imported) {
   if (file.empty()) file = std::filesystem::path(options.input).replace_extension(".lka").string();
   auto json = nlohmann::ordered_json::array();
   std::vector<std::pair<std::string, AssetPtr>> files{{file, imported.asset}};
-  const AssetSet hulls(imported.hulls);  // each once
-  for (const AssetPtr& hull : hulls.all())
-    files.emplace_back(hull_file(file, *hull), hull);
+  const AssetSet children(imported.children);  // each once
+  for (const AssetPtr& child : children.all())
+    files.emplace_back(child_file(file, *child), child);
   const auto is_writable = [&](const auto& entry) {
     return may_write({entry.first, options.force});
   };
@@ -147,25 +157,84 @@ int write(const BuildOptions& options, const Imported& imported) {
   return k_ok;
 }
 
+/// X,Y,Z, or one factor for all axes.
+std::optional<Vec3<Number>> parse_factors(const std::string& text) {
+  std::vector<Number> numbers;
+  for (std::size_t at = 0; at <= text.size() && numbers.size() < 4;) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const auto number = parse_decimal<Number>(text.substr(at, comma - at));
+    if (!number) return std::nullopt;
+    numbers.push_back(number.value());
+    at = comma + 1;
+  }
+  if (numbers.size() == 1) numbers.resize(3, numbers[0]);
+  if (numbers.size() != 3) return std::nullopt;
+  return Vec3<Number>{numbers[0], numbers[1], numbers[2]};
+}
+
+/// The fault, or nothing once the asset is its scaled copy.
+ImportOutcome scale(AssetPtr& asset, const Vec3<Number>& factors) {
+  const auto take = [&](const auto& copy, const auto& result) -> ImportOutcome {
+    if (!result.ok()) return ImportFault{0, "scaled: " + std::string(to_string(result.fault))};
+    asset = copy;
+    return std::nullopt;
+  };
+  if (const auto* hull = dynamic_cast<const Hull*>(asset.get())) {
+    const HullResult copy = scaled(*hull, factors);
+    return take(copy.hull, copy);
+  }
+  if (const auto* mesh = dynamic_cast<const Mesh*>(asset.get())) {
+    const MeshResult copy = scaled(*mesh, factors);
+    return take(copy.mesh, copy);
+  }
+  if (const auto* field = dynamic_cast<const HeightField*>(asset.get())) {
+    const HeightFieldResult copy = scaled(*field, factors);
+    return take(copy.height_field, copy);
+  }
+  return ImportFault{0, "only a hull, mesh or height field can be scaled"};
+}
+
+ImportOutcome import_asset(ByteView bytes, Imported& out) {
+  Result<AssetPtr> loaded = load_asset(bytes);
+  if (!loaded) return ImportFault{0, std::string(to_string(loaded.status()))};
+  out.asset = std::move(loaded).value();
+  return std::nullopt;
+}
+
 int refuse(const std::string& file, const ImportFault& fault) {
   const std::string line = fault.line == 0 ? "" : fmt::format(":{}", fault.line);
   fmt::print(stderr, "{}{}: {}\n", file, line, fault.reason);
   return k_corrupt;
 }
 
+/// The fault in the options of the source, or nothing.
+std::string parse(const BuildOptions& options, Source source, assets::ObjImport& obj,
+                  assets::PngImport& png) {
+  if (source == Source::obj) return parse(options, obj);
+  if (source == Source::png) return parse(options, png);
+  if (!options.kind.empty()) return "an asset keeps its kind";
+  if (options.output.empty() || options.factors.empty())
+    return "an asset needs --factors, and --output for its copy";
+  return {};
+}
+
 int build(const BuildOptions& options) {
   assets::ObjImport obj;
   assets::PngImport png;
   const Source source = source_of(options);
-  if (source == Source::unknown) return misuse("neither an .obj nor a .png file");
-  const std::string wrong = source == Source::obj ? parse(options, obj) : parse(options, png);
+  if (source == Source::unknown) return misuse("neither an .obj nor a .png nor an .lka file");
+  const std::string wrong = parse(options, source, obj, png);
   if (!wrong.empty()) return misuse(wrong);
+  const auto factors = parse_factors(options.factors.empty() ? "1" : options.factors);
+  if (!factors) return misuse("--factors: X,Y,Z or one number");
   const std::optional<std::string> text = read_file(options.input);
   if (!text) return refuse(options.input, {0, "cannot be read"});
+  const ByteView bytes = std::as_bytes(std::span(*text));
   Imported imported;
-  const ImportOutcome fault =
-      source == Source::obj ? assets::import_obj(*text, obj, imported)
-                            : assets::import_png(std::as_bytes(std::span(*text)), png, imported);
+  ImportOutcome fault = source == Source::obj   ? assets::import_obj(*text, obj, imported)
+                        : source == Source::png ? assets::import_png(bytes, png, imported)
+                                                : import_asset(bytes, imported);
+  if (!fault && !options.factors.empty()) fault = scale(imported.asset, *factors);
   if (fault) return refuse(options.input, *fault);
   for (const std::string& note : imported.notes)
     fmt::print(stderr, "{}: {}\n", options.input, note);
@@ -176,14 +245,21 @@ int build(const BuildOptions& options) {
 
 void add_asset_build_command(CLI::App& asset, int& exit_code) {
   auto options = std::make_shared<BuildOptions>();
-  CLI::App* command = asset.add_subcommand("build", "Make an asset of an OBJ or PNG file");
-  command->add_option("file", options->input, "An .obj model or a 16-bit grey .png")->required();
+  CLI::App* command =
+      asset.add_subcommand("build", "Make an asset of an OBJ or PNG file, or of another asset");
+  command->add_option("file", options->input, "An .obj model, a 16-bit grey .png, or an .lka asset")
+      ->required();
   command->add_option("-o,--output", options->output, "The asset (default: the name with .lka)");
   command
       ->add_option("--as", options->kind,
                    "The kind of asset to build (default: mesh, height-field)")
       ->check(CLI::IsMember({"hull", "mesh", "compound", "path", "height-field"}));
   command->add_option("--scale", options->scale, "OBJ: metres in the file's unit (default 1)");
+  command
+      ->add_option("--factors", options->factors,
+                   "X,Y,Z or one: scale the hull, mesh or height field along its axes; below 0 "
+                   "mirrors")
+      ->allow_extra_args(false);
   command->add_flag("--z-up", options->z_up, "OBJ: turn its z axis up to y");
   command
       ->add_option("--surface", options->surfaces,
@@ -193,6 +269,10 @@ void add_asset_build_command(CLI::App& asset, int& exit_code) {
       ->add_option("--max-vertices", options->max_vertices, "Most vertices of a hull (default 64)")
       ->check(CLI::Range(4, k_max_hull_vertices));
   command->add_option("--weld", options->weld, "Mesh: metres within which vertices become one");
+  command
+      ->add_option("--mesh", options->meshes,
+                   "Compound: an object of the OBJ file that is a mesh; repeatable")
+      ->allow_extra_args(false);
   command->add_flag("--groups", options->groups,
                     "Mesh: each object of the OBJ file is a group that a world may switch off");
   command->add_flag("--closed", options->closed,

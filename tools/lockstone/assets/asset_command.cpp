@@ -31,7 +31,7 @@ Result<AssetPtr> load_file(const std::string& file, const AssetSet& known) {
   return load_asset(std::as_bytes(std::span(*bytes)), known);
 }
 
-// Compounds wait until the hulls among the files are known.
+// Compounds wait until the hulls and meshes among the files are known.
 std::vector<Result<AssetPtr>> load_files(const std::vector<std::string>& files) {
   std::vector<Result<AssetPtr>> loaded;
   std::vector<AssetPtr> known;
@@ -46,7 +46,7 @@ std::vector<Result<AssetPtr>> load_files(const std::vector<std::string>& files) 
 }
 
 std::string reason_of(Status status) {
-  if (status == Status::not_found) return "a hull of this compound is not among the files";
+  if (status == Status::not_found) return "a hull or mesh of this compound is not among the files";
   if (status == Status::io_error) return "cannot be read";
   return std::string(to_string(status));
 }
@@ -79,7 +79,9 @@ void add_asset_command(CLI::App& app, int& exit_code) {
   add_asset_build_command(*asset, exit_code);
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = asset->add_subcommand("info", "Describe assets");
-  command->add_option("files", options->files, "Assets (.lka), a compound's hulls among them")
+  command
+      ->add_option("files", options->files,
+                   "Assets (.lka), a compound's hulls and meshes among them")
       ->required();
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = info(*options); });

@@ -100,9 +100,12 @@ ordered_json asset_json(const std::string& file, const Asset& asset) {
   json["upper"] = vector_json(asset.geometry().bounds().upper);
   if (const geometry::Solid* solid = asset.geometry().solid()) add_mass(*solid, json);
   if (const auto* compound = dynamic_cast<const Compound*>(&asset)) {
-    json["hulls"] = ordered_json::array();
-    for (const CompoundChild& child : compound->children())
-      if (child.asset != nullptr) json["hulls"].push_back(hash_text(child.asset->id().value));
+    json["hulls"] = json["meshes"] = ordered_json::array();
+    for (const CompoundChild& child : compound->children()) {
+      if (child.asset == nullptr) continue;
+      const char* list = child.shape.kind == ShapeKind::mesh ? "meshes" : "hulls";
+      json[list].push_back(hash_text(child.asset->id().value));
+    }
   }
   return json;
 }

@@ -228,6 +228,7 @@ export interface Functions {
   lks_assets_add_banked_path(assets: number, points: number, banks: number, count: number, closed: number, out: number): number;
   lks_assets_add_rounded_hull(assets: number, points: number, count: number, max_vertices: number, radius: number, out: number): number;
   lks_assets_add_bytes(assets: number, bytes: number, count: number, out: number): number;
+  lks_assets_find_part(assets: number, compound: bigint, part: number, child: number, triangle: number): number;
   lks_assets_add_scaled(assets: number, asset: bigint, factors: number, out: number): number;
   lks_shape_distance(assets: number, a: number, b: number, reach: number, out: number): number;
   lks_shape_cast(assets: number, a: number, b: number, way: number, out: number): number;

@@ -137,6 +137,14 @@ export class Assets {
     });
   }
 
+  /** The child of a compound that a part of an event or query belongs to; of a mesh also the triangle, else 0. */
+  findPart(compound: bigint, part: number): { child: number; triangle: number } {
+    const { heap } = this.lockstone;
+    const at = heap.output;
+    heap.check(heap.f.lks_assets_find_part(this.address, compound, part, at, at + 4));
+    return { child: heap.getWord(at), triangle: heap.getWord(at + 4) };
+  }
+
   private add(bytes: number, call: (address: number) => number): bigint {
     const { heap } = this.lockstone;
     const room = heap.allocate(bytes);

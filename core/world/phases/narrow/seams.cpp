@@ -196,7 +196,7 @@ bool SeamSearch::is_covered(const SeamContact& contact, const TouchedPoint& at) 
     if (!is_static(i) || !overlap(near, world_.broad_phase.bounds(other))) continue;
     const geometry::AssetGeometry* asset = world_.cache.asset(other);
     const bool is_own = other == contact.other;
-    if (is_own && asset != nullptr && asset->mesh_kernels() != nullptr) continue;
+    if (is_own && asset != nullptr && asset->triangles() == asset) continue;
     if (world_.are_exempt(body_, other) || is_passing(i)) continue;
     const std::uint32_t except = is_own ? part_of(contact) : k_no_part;
     if (covers(world_.placed(other), except, at, world_.bodies[body_].position)) return true;

@@ -119,9 +119,16 @@ LKS_API lks_status lks_assets_add_rounded_hull(lks_assets* assets, const lks_len
                                                lks_length radius, uint64_t* out);
 
 /* Adds an asset of any kind from its canonical bytes, as `lockstone asset build` writes them. They
- * may come from anywhere. A compound's hulls must be in the set: else LKS_NOT_FOUND. */
+ * may come from anywhere. A compound's hulls and meshes must be in the set: else LKS_NOT_FOUND. */
 LKS_API lks_status lks_assets_add_bytes(lks_assets* assets, const void* bytes, size_t count,
                                         uint64_t* out);
+
+/* The child of a compound that a part of an event or query belongs to, and of a mesh the number
+ * that the triangle has as a part of that mesh, else 0. Convex children are parts by their own
+ * numbers, triangles from 256 on. LKS_NOT_FOUND when the set has no such compound, or the compound
+ * no such part. */
+LKS_API lks_status lks_assets_find_part(const lks_assets* assets, uint64_t compound, uint32_t part,
+                                        uint32_t* child, uint32_t* triangle);
 
 /* Adds a hull, mesh or height field of the set scaled along its axes: each coordinate times the
  * factor of its axis, rounded to the nearest step. No factor is 0; a negative one mirrors, and
@@ -154,8 +161,8 @@ typedef struct lks_shape_gap {
   uint32_t reserved;    /* 0 */
 } lks_shape_gap;
 
-/* `reach` is 0 … 512 m. One of the two at least is a primitive, a hull or a compound. Error ≤ 2 µm.
- * Of equal distances that of the lowest part of A counts, then of B. */
+/* `reach` is 0 … 512 m. One of the two at least is a primitive, a hull or a compound without
+ * meshes. Error ≤ 2 µm. Of equal distances that of the lowest part of A counts, then of B. */
 LKS_API lks_status lks_shape_distance(const lks_assets* assets, const lks_placed_shape* a,
                                       const lks_placed_shape* b, lks_length reach,
                                       lks_shape_gap* out);
@@ -179,8 +186,8 @@ LKS_API lks_status lks_shape_cast(const lks_assets* assets, const lks_placed_sha
 
 /* Moves both evenly to the poses `end_a` and `end_b` (within ±512 m of their starts along each
  * axis), by the shortest turns, until they are as near as `gap`, 8 µm … 1 m, or 5/4 of it.
- * Primitives, hulls and compounds. Before the fraction the distance is not below the gap by more
- * than 3 µm and 1e-8 of the sizes. */
+ * Primitives, hulls and compounds without meshes. Before the fraction the distance is not below the
+ * gap by more than 3 µm and 1e-8 of the sizes. */
 LKS_API lks_status lks_shape_impact(const lks_assets* assets, const lks_placed_shape* a,
                                     const lks_pose* end_a, const lks_placed_shape* b,
                                     const lks_pose* end_b, lks_length gap, lks_shape_hit* out);

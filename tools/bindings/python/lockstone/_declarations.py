@@ -1060,6 +1060,7 @@ FUNCTIONS = {
     "lks_assets_add_banked_path": [c_int32, c_void_p, POINTER(lks_path_point), POINTER(c_int32), c_size_t, c_uint32, POINTER(c_uint64)],
     "lks_assets_add_rounded_hull": [c_int32, c_void_p, POINTER(lks_i32x3), c_size_t, c_int32, c_int32, POINTER(c_uint64)],
     "lks_assets_add_bytes": [c_int32, c_void_p, c_void_p, c_size_t, POINTER(c_uint64)],
+    "lks_assets_find_part": [c_int32, c_void_p, c_uint64, c_uint32, POINTER(c_uint32), POINTER(c_uint32)],
     "lks_assets_add_scaled": [c_int32, c_void_p, c_uint64, POINTER(lks_i32x3), POINTER(c_uint64)],
     "lks_shape_distance": [c_int32, c_void_p, POINTER(lks_placed_shape), POINTER(lks_placed_shape), c_int32, POINTER(lks_shape_gap)],
     "lks_shape_cast": [c_int32, c_void_p, POINTER(lks_placed_shape), POINTER(lks_placed_shape), POINTER(lks_i32x3), POINTER(lks_shape_hit)],

@@ -149,6 +149,7 @@ _CALLS = {
     "lks_assets_add_banked_path": [c_void_p, c_void_p, c_void_p, c_size_t, c_uint32, _NUMBER],
     "lks_assets_add_rounded_hull": [c_void_p, POINTER(I32x3), c_size_t, c_int32, c_int32, _NUMBER],
     "lks_assets_add_bytes": [c_void_p, c_char_p, c_size_t, _NUMBER],
+    "lks_assets_find_part": [c_void_p, c_uint64, c_uint32, POINTER(c_uint32), POINTER(c_uint32)],
     "lks_world_keep_history": [_WORLD, c_uint32],
     "lks_world_forget_history": [_WORLD],
     "lks_step": [_WORLD, c_void_p],

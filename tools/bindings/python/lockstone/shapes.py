@@ -84,6 +84,12 @@ class Assets:
                                   ctypes.byref(name))
         return name.value
 
+    def find_part(self, compound: int, part: int) -> Tuple[int, int]:
+        """The child of a compound that a part of an event or query belongs to; of a mesh also the triangle, else 0."""
+        child, triangle = ctypes.c_uint32(), ctypes.c_uint32()
+        lib.lks_assets_find_part(self.handle, compound, part, ctypes.byref(child), ctypes.byref(triangle))
+        return child.value, triangle.value
+
     def add_path(self, points: Iterable[Tuple[Vector, Vector]], closed: bool = False,
                  banks: Iterable[Quantity] = ()) -> int:
         """A smooth curve through 2 … 4096 points, each with the direction up there; its name, for path joints.

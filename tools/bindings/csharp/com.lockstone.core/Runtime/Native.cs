@@ -1197,6 +1197,9 @@ namespace Lockstone.Interop
         public static extern int lks_assets_add_bytes(IntPtr assets, void* bytes, UIntPtr count, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_assets_find_part(IntPtr assets, ulong compound, uint part, uint* child, uint* triangle);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_assets_add_scaled(IntPtr assets, ulong asset, lks_i32x3* factors, ulong* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

@@ -89,6 +89,14 @@ namespace Lockstone
             Call.Check(Native.lks_assets_add_scaled(Pointer, shape.asset, &factors, &name));
             return Shape.Asset(shape.kind, name);
         }
+
+        /// <summary>The child of a compound that a part of an event or query belongs to; of a mesh also the triangle, else 0.</summary>
+        public (uint child, uint triangle) FindPart(ulong compound, uint part)
+        {
+            uint child, triangle;
+            Call.Check(Native.lks_assets_find_part(Pointer, compound, part, &child, &triangle));
+            return (child, triangle);
+        }
     }
 
     /// <summary>A world of bodies and joints, written by commands alone. A body or joint is named by a ulong.</summary>

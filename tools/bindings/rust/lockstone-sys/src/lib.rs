@@ -1073,6 +1073,7 @@ extern "C" {
     pub fn lks_assets_add_banked_path(assets: *mut lks_assets, points: *const lks_path_point, banks: *const lks_angle, count: usize, closed: u32, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_rounded_hull(assets: *mut lks_assets, points: *const lks_length3, count: usize, max_vertices: i32, radius: lks_length, out: *mut u64) -> lks_status;
     pub fn lks_assets_add_bytes(assets: *mut lks_assets, bytes: *const c_void, count: usize, out: *mut u64) -> lks_status;
+    pub fn lks_assets_find_part(assets: *const lks_assets, compound: u64, part: u32, child: *mut u32, triangle: *mut u32) -> lks_status;
     pub fn lks_assets_add_scaled(assets: *mut lks_assets, asset: u64, factors: *const lks_number3, out: *mut u64) -> lks_status;
     pub fn lks_shape_distance(assets: *const lks_assets, a: *const lks_placed_shape, b: *const lks_placed_shape, reach: lks_length, out: *mut lks_shape_gap) -> lks_status;
     pub fn lks_shape_cast(assets: *const lks_assets, a: *const lks_placed_shape, b: *const lks_placed_shape, way: *const lks_length3, out: *mut lks_shape_hit) -> lks_status;

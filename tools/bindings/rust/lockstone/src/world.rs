@@ -165,6 +165,12 @@ impl Assets {
         check(unsafe { sys::lks_assets_add_scaled(self.0, asset, &factors, &mut name) })?;
         Ok(name)
     }
+    /// The child of a compound that a part of an event or query belongs to; of a mesh also the triangle, else 0.
+    pub fn find_part(&self, compound: u64, part: u32) -> Result<(u32, u32)> {
+        let (mut child, mut triangle) = (0, 0);
+        check(unsafe { sys::lks_assets_find_part(self.0, compound, part, &mut child, &mut triangle) })?;
+        Ok((child, triangle))
+    }
     /// Adds an asset from its canonical bytes.
     pub fn add_bytes(&mut self, bytes: &[u8]) -> Result<u64> {
         let mut name = 0;
