@@ -103,7 +103,8 @@ void drop_some(Level& level) {
   }
 }
 
-// Bodies apart from each other: the numbers of triangles alone differ, which name contact points.
+// Bodies apart from each other: the numbers of triangles alone differ, which name contact points,
+// so that these are solved in another order.
 TEST(MeshCompounds, OfOneMeshActAsTheMesh) {
   const std::array<CompoundChild, 1> alone{part_of(floor_mesh(false))};
   Level mesh(floor_mesh(false)), compound(compound_of(alone));
@@ -118,13 +119,13 @@ TEST(MeshCompounds, OfOneMeshActAsTheMesh) {
       test::add(level->world, def);
     }
   }
-  for (int tick = 0; tick < 120; ++tick) {
+  for (int tick = 0; tick < 40; ++tick) {
     test::step(mesh.world, 1);
     test::step(compound.world, 1);
     for (std::uint32_t i = 0; i < mesh.world.body_limit(); ++i) {
       const Vec3<Position> gap = mesh.world.position(mesh.world.body_at(i)) -
                                  compound.world.position(compound.world.body_at(i));
-      ASSERT_LT(std::abs(metres(gap.x)) + std::abs(metres(gap.y)) + std::abs(metres(gap.z)), 1e-3)
+      ASSERT_LT(std::abs(metres(gap.x)) + std::abs(metres(gap.y)) + std::abs(metres(gap.z)), 1e-6)
           << tick << " " << i;
     }
   }
