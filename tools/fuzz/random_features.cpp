@@ -4,12 +4,15 @@
 #include <array>
 #include <vector>
 
+#include <lockstone/literals.h>
 #include <lockstone/path.h>
 
 #include "tools/scenes/assets.h"
 
 namespace lockstone::fuzz {
 namespace {
+
+using namespace lockstone::literals;
 
 constexpr std::uint32_t k_panels = 5;
 

@@ -59,7 +59,7 @@ WorldDef level_world() {
 
 void add_runners(World& world, Random& random) {
   for (int i = 0; i < 24; ++i) {
-    const std::int32_t size = random.between(150, 300), speed = random.between(3, 7);
+    const std::int32_t size = random.between(150, 300), speed = random.between(4, 9);
     const Length half = millimetres_long(size);
     const Shape shape = i % 4 == 0   ? Shape::sphere(half)
                         : i % 4 == 1 ? Shape::box(half, half, half)
@@ -69,13 +69,13 @@ void add_runners(World& world, Random& random) {
         loose(shape, {millimetres(-7600 + i % 3 * 600), millimetres(3020 + size + i % 2 * 700),
                       millimetres(i / 3 * 1300 - 4550)});
     def.velocity.x = Velocity::from_integer(speed);
-    def.material.friction = 0.3_r;
+    def.material.friction = 0.1_r;
     add(world, def);
   }
 }
 
 void build_level(World& world, std::uint64_t seed) {
-  add_ground(world, 20_m);
+  add_ground(world, 16_m);
   add(world, fixed(level_assets(seed)[0]->shape(), {{}, 3_m, {}}));
   Random random(mix(seed));
   add_runners(world, random);
@@ -89,9 +89,11 @@ void drive_level(World& world, std::uint64_t) {
     order(world, SetMeshGroup{world.body_at(k_body), group, false});
   }
   if (tick % 40 != 20) return;
-  BodyDef bullet =
-      loose(Shape::sphere(0.05_m), {-4_m, 4_m, millimetres(static_cast<int>(tick) * 10 - 1500)});
-  bullet.velocity = {120_mps, {}, tick % 80 == 20 ? 90_mps : -90_mps};
+  const Velocity speed = tick % 80 == 20 ? 150_mps : -150_mps;
+  const bool at_wall = tick % 160 < 80;
+  BodyDef bullet = loose(Shape::sphere(0.05_m),
+                         {2_m, 4_m, millimetres(at_wall ? 0 : static_cast<int>(tick) * 4)});
+  bullet.velocity = at_wall ? Vec3<Velocity>{{}, {}, speed} : Vec3<Velocity>{-150_mps, {}, {}};
   add(world, bullet);
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <lockstone/path.h>
+#include <lockstone/rotation.h>
 
 #include "tools/scenes/assets.h"
 #include "tools/scenes/build.h"

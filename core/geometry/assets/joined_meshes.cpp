@@ -40,7 +40,7 @@ class MeshJoiner {
       const TriangleIndices t = data.indices(i);
       soup_.triangles.push_back({t.a + base, t.b + base, t.c + base});
       soup_.surfaces.push_back(*surface);
-      soup_.groups.push_back(data.soup.groups.empty() ? std::uint16_t{0} : data.soup.groups[i]);
+      soup_.groups.push_back(data.soup.groups.empty() ? k_no_group : data.soup.groups[i]);
       soup_.sources.push_back({placed.child, i});
     }
     flat_angle_ = min(flat_angle_, data.flat_angle);
@@ -49,6 +49,8 @@ class MeshJoiner {
 
   /// Null where no triangle is left.
   [[nodiscard]] std::unique_ptr<const AssetGeometry> finished() {
+    if (std::ranges::count(soup_.groups, k_no_group) == std::ssize(soup_.groups))
+      soup_.groups.clear();
     (void)canonicalise(soup_, {});
     if (soup_.triangles.empty()) return nullptr;
     MeshData data = make_mesh_data(std::move(soup_), std::move(surfaces_), flat_angle_);

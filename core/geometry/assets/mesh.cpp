@@ -102,6 +102,7 @@ std::vector<MeshGroup> groups_of(const TriangleSoup& soup) {
   std::vector<bool> exists(groups.size());
   for (std::uint32_t i = 0; i < soup.groups.size(); ++i) {
     const std::uint16_t group = soup.groups[i];
+    if (group == k_no_group) continue;
     const LocalBounds bounds = bounds_of(soup.triangle(i));
     LocalBounds& all = groups[group].bounds;
     if (!exists[group]) all = bounds;

@@ -11,6 +11,10 @@
 
 namespace lockstone::geometry {
 
+/// The group of triangles that no world switches, beside others of joined meshes.
+inline constexpr std::uint16_t k_no_group = 0xffff;
+static_assert(k_no_group >= k_max_mesh_groups);
+
 /// A triangle of a child of a compound.
 struct TriangleSource {
   std::uint32_t child = 0;

@@ -66,7 +66,7 @@ struct CompoundPart {
 /// The triangles of all meshes are joined to one surface: in the compound's frame, vertices rounded
 /// to 2^-20 m, equal ones one. So edges at which meshes meet are met as those of one mesh, and
 /// repeated triangles are there once. Groups of triangles are those of the whole body: a number
-/// that two meshes have is one group, and a mesh without groups is of group 0. The smallest flat
+/// that two meshes have is one group; a mesh without groups stays on. The smallest flat
 /// angle of the meshes counts for all. Memory as for a mesh of all the triangles, and 8 bytes more
 /// for each.
 class Compound final : public Asset {

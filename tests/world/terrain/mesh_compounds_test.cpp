@@ -319,9 +319,9 @@ TEST(MeshCompounds, AreWalkedOn) {
 
 // The panels of one number in both meshes go together.
 TEST(MeshCompounds, SwitchTheGroupsOfAllTheirMeshes) {
-  const std::array<CompoundChild, 3> children{part_of(floor_mesh(true)),
-                                              part_of(floor_mesh(true), {{}, {}, 12_m}),
-                                              box_at({{}, -1_m, 6_m}, {5_m, 1_m, 1_m})};
+  const std::array<CompoundChild, 4> children{
+      part_of(floor_mesh(true)), part_of(floor_mesh(true), {{}, {}, 12_m}),
+      box_at({{}, -1_m, 6_m}, {5_m, 1_m, 1_m}), part_of(floor_mesh(false), {10_m, {}, {}})};
   Level level(compound_of(children));
   const auto blocked = [&](Position x, Position z) {
     return level.world.is_ray_blocked({x, 2_m, z}, {{}, -4_m, {}});
@@ -337,9 +337,14 @@ TEST(MeshCompounds, SwitchTheGroupsOfAllTheirMeshes) {
   EXPECT_FALSE(blocked(0.8_m, 0.1_m));
   EXPECT_FALSE(blocked(0.8_m, 12.1_m));
   EXPECT_TRUE(blocked(0.8_m, 6.1_m));  // the box stays
+  ASSERT_EQ(level.world.apply(SetMeshGroup{level.body, 0, false}), Status::ok);
+  EXPECT_FALSE(blocked(-4_m, 0.1_m));
+  EXPECT_TRUE(blocked(10_m, 0.1_m));  // and the mesh without groups
+  ASSERT_EQ(level.world.apply(SetMeshGroup{level.body, 0, true}), Status::ok);
   EXPECT_TRUE(blocked(2.2_m, 0.1_m));
   EXPECT_EQ(is_mesh_group_on(level.world, level.body, 2), false);
-  EXPECT_EQ(level.world.apply(SetMeshGroup{level.body, 5, false}), Status::invalid_argument);
+  for (const std::uint32_t none : {5U, 0xffffU})
+    EXPECT_EQ(level.world.apply(SetMeshGroup{level.body, none, false}), Status::invalid_argument);
   EXPECT_NE(level.world.hash().total, before);
   test::step(level.world, 60);
   EXPECT_LT(level.height(crate), -3);
