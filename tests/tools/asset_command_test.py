@@ -187,8 +187,9 @@ class Models(Case):
         mirrored = self.build(MODELS / "tetrahedron.obj", "--as", "hull", "--factors=-1,1,1")
         self.assertEqual((mirrored["lower"], mirrored["upper"]), ([-1, 0, 0], [0, 1, 1]))
         slope = self.write("slope.png", png(3, 3, lambda x, y: 20000 * x))
-        self.assertEqual(self.build(slope, "--height", "10", "--factors", "2,3,4")["upper"][1],
-                         self.build(slope, "--height", "30")["upper"][1])
+        scaled = self.build(slope, "--height", "10", "--factors", "2,3,4")
+        for found, expected in zip(scaled["upper"], [2, 30 * 40000 / 65535, 4]):
+            self.assertAlmostEqual(found, expected, delta=3 * 2**-21)
 
     def test_factors_that_cannot_be_are_refused(self):
         cube = MODELS / "cube.obj"
