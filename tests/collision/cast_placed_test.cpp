@@ -1,6 +1,7 @@
 // Casts against many pieces and points near them: the same as asking every piece by itself.
 #include "core/collision/query/cast_placed.h"
 
+#include <cmath>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -159,6 +160,41 @@ TEST_P(ManyPieces, AreAsNearAsTheNearestOfThem) {
 
 INSTANTIATE_TEST_SUITE_P(Assets, ManyPieces,
                          ::testing::Values(random_mesh, random_field, random_compound));
+
+// Along a side of a long box, closer and closer, also with ways that barely meet it or miss it.
+TEST(CastPlaced, FindsThePathsBesideABoxThatACastOfThePiecesFinds) {
+  Dice dice;
+  int hits = 0, misses = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const double width = std::exp2(dice.uniform(-3, 8)), height = std::exp2(dice.uniform(-3, 8));
+    const PlacedShape target =
+        placed(dice, Shape::box(metres(width), metres(height), metres(width)), nullptr, 2);
+    const Shape shape = dice.shape(static_cast<ShapeKind>(dice.between(0, 2)), 0.05, 1);
+    PlacedShape convex = placed(dice, shape, nullptr, 1);
+    const double along = dice.uniform(-1.2, 1.2), across = dice.uniform(-1.2, 1.2);
+    const Vec3<Length> up =
+        world_half_extents(shape, multiply(transposed(target.rotation), convex.rotation));
+    const double gap = std::exp2(dice.uniform(-16, 1)), dip = dice.uniform(-1.5, 1.5) * gap;
+    const double length = std::exp2(dice.uniform(-8, 7));
+    const double x = dice.uniform(-length, length), z = dice.uniform(-length, length);
+    const Vec3<Length> local = metres(along * width, height + gap, across * width);
+    convex.origin = convex.centre =
+        target.origin +
+        rotate(target.rotation, rounded<Position>(local + Vec3<Length>{{}, up.y, {}}));
+    const Vec3<Length> way =
+        saturated<Length>(rotate(target.rotation, rounded<Position>(metres(x, dip, z))));
+    CastAll all(convex, way);
+    all.visit(single_piece(target));
+    const PlacedShapeHit hit = cast_shape(target, convex, way, k_whole);
+    ++(hit.hit ? hits : misses);
+    ASSERT_EQ(hit.hit, all.best.hit) << i;
+    ASSERT_EQ(hit.fraction, all.best.fraction) << i;
+    ASSERT_EQ(hit.normal, all.best.normal) << i;
+    ASSERT_EQ(hit.point, all.best.point) << i;
+  }
+  EXPECT_GT(hits, 500);
+  EXPECT_GT(misses, 1500);
+}
 
 // The middle of the corner's bounds lies half a metre beyond its slanted face, and behind a
 // triangle in front of that face.

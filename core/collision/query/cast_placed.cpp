@@ -7,6 +7,7 @@
 #include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/distance/motion/shape_cast.h"
+#include "core/geometry/distance/separation.h"
 #include "core/math/int128.h"
 
 namespace lockstone {
@@ -62,6 +63,34 @@ ShapeCastHit cast_at_half_space(const PosedShape& plane, const PosedShape& shape
   return hit;
 }
 
+// Normal of the side of a box that the offset is farthest beyond, or of a triangle's front; zero of
+// other pieces.
+Vec3<Unit> side_towards(const Piece& piece, const Vec3<Length>& offset) {
+  if (piece.triangle.is_triangle)
+    return rotate(piece.rotation, piece.polytope->faces.front().normal);
+  if (piece.shape.kind != ShapeKind::box) return {};
+  const Vec3<Length> local = rotate_inverse(piece.rotation, offset);
+  int best = 0;
+  for (int i = 1; i < 3; ++i)
+    if (abs(local[i]) - piece.shape.size[i] > abs(local[best]) - piece.shape.size[best]) best = i;
+  const Vec3<Unit> side = piece.rotation.column(best);
+  return local[best] < Length{} ? -side : side;
+}
+
+// Whether a side of the piece keeps the shape off on its whole way, by so much that a cast would
+// find nothing: it is nowhere within reach of rounding, and takes less than 64 of its steps, each
+// at least the distance less rounding over the way's length.
+bool is_kept_off(const Piece& piece, const Piece& shape, const Vec3<Length>& offset,
+                 const Vec3<Length>& way) {
+  constexpr Length k_least_gap = Length::from_ratio(1, 2000);
+  const Vec3<Unit> side = side_towards(piece, offset);
+  if (side == Vec3<Unit>{}) return false;
+  const Length closing = max(-rounded<Length>(dot(side, way)), Length{});
+  const Length gap = max(k_least_gap, (abs(way.x) + abs(way.y) + abs(way.z)) / 64);
+  LKS_ASSERT(closing >= Length{} && gap > Length{});
+  return separated_along(piece.posed(), shape.posed(), offset, closing + gap, side);
+}
+
 class CastPieces final : public geometry::WayPartVisitor {
  public:
   CastPieces(const PlacedShape& placed, const PlacedShape& convex, const Vec3<Length>& translation,
@@ -80,6 +109,7 @@ class CastPieces final : public geometry::WayPartVisitor {
   void visit(const Piece& piece) {
     if (is_behind(middle_, piece)) return;
     const Vec3<Length> offset = saturated<Length>(shape_.origin - piece.origin);
+    if (is_kept_off(piece, shape_, offset, translation_)) return;
     const ShapeCastHit hit =
         piece.shape.kind == ShapeKind::half_space
             ? cast_at_half_space(piece.posed(), shape_.posed(), offset, translation_)
