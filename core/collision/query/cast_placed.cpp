@@ -74,6 +74,7 @@ Vec3<Unit> side_towards(const Piece& piece, const Vec3<Length>& offset) {
   for (int i = 1; i < 3; ++i)
     if (abs(local[i]) - piece.shape.size[i] > abs(local[best]) - piece.shape.size[best]) best = i;
   const Vec3<Unit> side = piece.rotation.column(best);
+  LKS_ASSERT(geometry::is_unit(side));
   return local[best] < Length{} ? -side : side;
 }
 

@@ -110,7 +110,7 @@ class DriveTrain {
     const Real across = speeds_right_[i];
     Real u = (Real::of(wheel.slip_along) + along * dt_) * turning.kept;
     Real w = (Real::of(wheel.slip_across) + across * dt_) * turning.kept;
-    bound(u, w, length_real(along * turning.steady_u, across * turning.steady_w));
+    bound(u, w, along * turning.steady_u, across * turning.steady_w);
     wheel.slip_along = u.as<Position>();
     wheel.slip_across = w.as<Position>();
     const Grip grip = grip_of((u + along * turning.damping) * inverse_best_u_,
@@ -119,10 +119,14 @@ class DriveTrain {
     return {most * grip.along, most * grip.across};
   }
 
-  // `steady`: the slip at which the deflection would stay, 1 where the tyre grips best.
-  void bound(Real& u, Real& w, Real steady) const {
-    const Real most = clamp_real(steady, k_kept_slip, k_most_slip);
-    const Real slip = length_real(u * inverse_best_u_, w * inverse_best_w_);
+  // `steady_u`, `steady_w`: the slip at which the deflection would stay, 1 where the tyre grips
+  // best. Roots are drawn only where the bound may matter: none is above the sum of the parts.
+  void bound(Real& u, Real& w, Real steady_u, Real steady_w) const {
+    const Real part_u = abs_real(u * inverse_best_u_), part_w = abs_real(w * inverse_best_w_);
+    if (part_u + part_w <= k_kept_slip) return;
+    const Real slip = length_real(part_u, part_w);
+    if (slip <= k_kept_slip) return;
+    const Real most = clamp_real(length_real(steady_u, steady_w), k_kept_slip, k_most_slip);
     if (slip <= most) return;
     const Real part = most / slip;
     u = u * part;
