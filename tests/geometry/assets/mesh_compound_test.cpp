@@ -19,14 +19,6 @@ namespace {
 using namespace literals;
 using geometry::TriangleVertices;
 
-CompoundChild mesh_child(const AssetPtr& mesh, const Vec3<Length>& position = {}) {
-  CompoundChild child;
-  child.asset = mesh;
-  child.shape = mesh->shape();
-  child.position = position;
-  return child;
-}
-
 CompoundFault fault_of(std::span<const CompoundChild> children) {
   return Compound::build(children).fault;
 }
@@ -118,8 +110,8 @@ TEST(MeshCompound, JoinsMeshesThatMeet) {
 }
 
 TEST(MeshCompound, HasRepeatedTrianglesOnce) {
-  const std::array<CompoundChild, 2> twice{mesh_child(test::sample_panels()),
-                                           mesh_child(test::sample_panels())};
+  const std::array<CompoundChild, 2> twice{test::child_of(test::sample_panels()),
+                                           test::child_of(test::sample_panels())};
   const CompoundResult built = Compound::build(twice);
   ASSERT_TRUE(built.ok());
   test::CollectParts seen;
@@ -131,7 +123,7 @@ TEST(MeshCompound, HasRepeatedTrianglesOnce) {
 
 TEST(MeshCompound, GivesItsSurfaceToTrianglesWithoutOne) {
   const AssetPtr mesh = test::sample_mesh();  // surfaces 0, own, 0
-  std::array<CompoundChild, 1> children{mesh_child(mesh)};
+  std::array<CompoundChild, 1> children{test::child_of(mesh)};
   children[0].surface = Surface{0.25_r, {}};
   const CompoundResult built = Compound::build(children);
   ASSERT_TRUE(built.ok());
@@ -172,17 +164,17 @@ TEST(MeshCompound, ComesBackFromItsBytes) {
 
 TEST(MeshCompound, IsRefusedWithTheReason) {
   const AssetPtr panels = test::sample_panels();
-  std::array<CompoundChild, 1> one{mesh_child(panels)};
+  std::array<CompoundChild, 1> one{test::child_of(panels)};
   one[0].asset = nullptr;
   EXPECT_EQ(fault_of(one), CompoundFault::missing_asset);
-  one[0] = mesh_child(panels);
+  one[0] = test::child_of(panels);
   one[0].shape.kind = ShapeKind::hull;
   EXPECT_EQ(fault_of(one), CompoundFault::missing_asset);
-  one[0] = mesh_child(test::sample_height_field());
+  one[0] = test::child_of(test::sample_height_field());
   EXPECT_EQ(fault_of(one), CompoundFault::invalid_shape);
-  one[0] = mesh_child(test::sample_level());
+  one[0] = test::child_of(test::sample_level());
   EXPECT_EQ(fault_of(one), CompoundFault::invalid_shape);
-  one[0] = mesh_child(panels, {511_m, {}, {}});
+  one[0] = test::child_of(panels, {511_m, {}, {}});
   EXPECT_EQ(fault_of(one), CompoundFault::coordinate_out_of_range);
   EXPECT_EQ(fault_of(test::sample_level_children()), CompoundFault::none);
 }
@@ -194,7 +186,7 @@ TEST(MeshCompound, IsRefusedWhereTheTrianglesVanish) {
   MeshDef def;
   def.vertices = sliver;
   def.triangles = triangle;
-  std::array<CompoundChild, 1> one{mesh_child(Mesh::build(def).mesh)};
+  std::array<CompoundChild, 1> one{test::child_of(Mesh::build(def).mesh)};
   EXPECT_EQ(fault_of(one), CompoundFault::none);
   test::Random random(20261127);
   int vanished = 0;
@@ -232,12 +224,12 @@ TEST(MeshCompound, IsRefusedWithTooManySurfaces) {
     def.triangle_surfaces = of_triangles;
     return Mesh::build(def).mesh;
   };
-  std::array<CompoundChild, 2> two{mesh_child(with_surfaces(0, 200)),
-                                   mesh_child(with_surfaces(0, 200), {{}, 1_m, {}})};
+  std::array<CompoundChild, 2> two{test::child_of(with_surfaces(0, 200)),
+                                   test::child_of(with_surfaces(0, 200), {{}, 1_m, {}})};
   EXPECT_EQ(fault_of(two), CompoundFault::none);
-  two[1] = mesh_child(with_surfaces(145, 110), {{}, 1_m, {}});  // 0 … 254
+  two[1] = test::child_of(with_surfaces(145, 110), {{}, 1_m, {}});  // 0 … 254
   EXPECT_EQ(fault_of(two), CompoundFault::none);
-  two[1] = mesh_child(with_surfaces(146, 110), {{}, 1_m, {}});  // 0 … 255
+  two[1] = test::child_of(with_surfaces(146, 110), {{}, 1_m, {}});  // 0 … 255
   const CompoundResult refused = Compound::build(two);
   EXPECT_EQ(refused.fault, CompoundFault::too_many_surfaces);
   EXPECT_EQ(refused.child, 1U);

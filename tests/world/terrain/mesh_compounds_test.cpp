@@ -9,12 +9,11 @@
 
 #include <lockstone/character.h>
 #include <lockstone/contacts.h>
-#include <lockstone/rollback_history.h>
 #include <lockstone/terrain.h>
 
 #include "tests/support/random.h"
 #include "tests/support/sample_level.h"
-#include "tests/world/world_fixture.h"
+#include "tests/world/terrain/shaken.h"
 
 namespace lockstone {
 namespace {
@@ -22,14 +21,6 @@ namespace {
 using namespace literals;
 using test::metres;
 using test::metres_per_second;
-
-CompoundChild part_of(const AssetPtr& asset, const Vec3<Length>& position = {}) {
-  CompoundChild child;
-  child.asset = asset;
-  child.shape = asset->shape();
-  child.position = position;
-  return child;
-}
 
 CompoundChild box_at(const Vec3<Length>& position, const Vec3<Length>& half) {
   CompoundChild child;
@@ -106,7 +97,7 @@ void drop_some(Level& level) {
 // Bodies apart from each other: the numbers of triangles alone differ, which name contact points,
 // so that these are solved in another order.
 TEST(MeshCompounds, OfOneMeshActAsTheMesh) {
-  const std::array<CompoundChild, 1> alone{part_of(floor_mesh(false))};
+  const std::array<CompoundChild, 1> alone{test::child_of(floor_mesh(false))};
   Level mesh(floor_mesh(false)), compound(compound_of(alone));
   for (Level* level : {&mesh, &compound}) {
     for (int i = 0; i < 16; ++i) {
@@ -134,7 +125,7 @@ TEST(MeshCompounds, OfOneMeshActAsTheMesh) {
 // The same mesh in two halves and turned, welded where they meet.
 TEST(MeshCompounds, AreRolledOverWithoutBumps) {
   const AssetPtr half = floor_mesh(false);
-  std::array<CompoundChild, 3> children{part_of(half), part_of(half, {10_m, {}, {}}),
+  std::array<CompoundChild, 3> children{test::child_of(half), test::child_of(half, {10_m, {}, {}}),
                                         box_at({-10_m, -1_m, {}}, {5_m, 1_m, 5_m})};
   children[1].orientation = {{}, Unit::from_integer(1), {}, {}};
   for (const Shape& shape :
@@ -159,7 +150,7 @@ TEST(MeshCompounds, AreRolledOverWithoutBumps) {
 
 // The control: where the box is 2 cm higher, its side is met.
 TEST(MeshCompounds, HaveStepsWhereChildrenAreNotFlush) {
-  const std::array<CompoundChild, 2> children{part_of(floor_mesh(false)),
+  const std::array<CompoundChild, 2> children{test::child_of(floor_mesh(false)),
                                               box_at({10_m, -0.98_m, {}}, {5_m, 1_m, 5_m})};
   Level level(compound_of(children));
   BodyDef def = test::dynamic_body(Shape::box(0.3_m, 0.3_m, 0.3_m), 2_m, 0.3_m, {});
@@ -172,9 +163,9 @@ TEST(MeshCompounds, HaveStepsWhereChildrenAreNotFlush) {
 }
 
 TEST(MeshCompounds, RestBodiesOnAllTheirParts) {
-  const std::array<CompoundChild, 3> children{part_of(floor_mesh(false)),
-                                              box_at({3_m, 0.5_m, 3_m}, {1_m, 0.5_m, 1_m}),
-                                              part_of(test::sample_hull(), {-4_m, {}, -3_m})};
+  const std::array<CompoundChild, 3> children{
+      test::child_of(floor_mesh(false)), box_at({3_m, 0.5_m, 3_m}, {1_m, 0.5_m, 1_m}),
+      test::child_of(test::sample_hull(), {-4_m, {}, -3_m})};
   Level level(compound_of(children));
   const BodyHandle on_mesh = level.drop(Shape::box(0.3_m, 0.3_m, 0.3_m), {}, 0.5_m, {});
   const BodyHandle on_box = level.drop(Shape::sphere(0.3_m), 3_m, 1.5_m, 3_m);
@@ -191,9 +182,9 @@ TEST(MeshCompounds, RestBodiesOnAllTheirParts) {
 }
 
 TEST(MeshCompounds, TellThePartThatIsHit) {
-  const std::array<CompoundChild, 3> children{part_of(floor_mesh(false)),
+  const std::array<CompoundChild, 3> children{test::child_of(floor_mesh(false)),
                                               box_at({3_m, 0.5_m, 3_m}, {1_m, 0.5_m, 1_m}),
-                                              part_of(floor_mesh(false), {{}, 4_m, 20_m})};
+                                              test::child_of(floor_mesh(false), {{}, 4_m, 20_m})};
   Level level(compound_of(children));
   const auto hit_part = [&](Position x, Position y, Position z) {
     BodyDef def = test::dynamic_body(Shape::sphere(0.2_m), x, y, z);
@@ -257,7 +248,7 @@ TEST(MeshCompounds, AreSeenByQueriesAsTheirChildrenAre) {
 }
 
 TEST(MeshCompounds, StopFastAndThinBodies) {
-  const std::array<CompoundChild, 2> children{part_of(floor_mesh(false)),
+  const std::array<CompoundChild, 2> children{test::child_of(floor_mesh(false)),
                                               box_at({10_m, -1_m, {}}, {5_m, 1_m, 5_m})};
   for (const Shape& shape : {Shape::sphere(0.02_m), Shape::box(0.3_m, 0.001_m, 0.3_m)}) {
     for (const Position x : {Position{1.3_m}, Position{10.3_m}}) {
@@ -304,7 +295,7 @@ TEST(MeshCompounds, AreZonesThatSeeBodiesAtTheirParts) {
 }
 
 TEST(MeshCompounds, AreWalkedOn) {
-  const std::array<CompoundChild, 2> children{part_of(floor_mesh(false)),
+  const std::array<CompoundChild, 2> children{test::child_of(floor_mesh(false)),
                                               box_at({10_m, -1_m, {}}, {5_m, 1_m, 5_m})};
   Level level(compound_of(children));
   CharacterDef def;
@@ -320,8 +311,8 @@ TEST(MeshCompounds, AreWalkedOn) {
 // The panels of one number in both meshes go together.
 TEST(MeshCompounds, SwitchTheGroupsOfAllTheirMeshes) {
   const std::array<CompoundChild, 4> children{
-      part_of(floor_mesh(true)), part_of(floor_mesh(true), {{}, {}, 12_m}),
-      box_at({{}, -1_m, 6_m}, {5_m, 1_m, 1_m}), part_of(floor_mesh(false), {10_m, {}, {}})};
+      test::child_of(floor_mesh(true)), test::child_of(floor_mesh(true), {{}, {}, 12_m}),
+      box_at({{}, -1_m, 6_m}, {5_m, 1_m, 1_m}), test::child_of(floor_mesh(false), {10_m, {}, {}})};
   Level level(compound_of(children));
   const auto blocked = [&](Position x, Position z) {
     return level.world.is_ray_blocked({x, 2_m, z}, {{}, -4_m, {}});
@@ -354,64 +345,35 @@ TEST(MeshCompounds, SwitchTheGroupsOfAllTheirMeshes) {
 }
 
 TEST(MeshCompounds, OfMeshesWithoutGroupsHaveNoneToSwitch) {
-  const std::array<CompoundChild, 1> children{part_of(floor_mesh(false))};
+  const std::array<CompoundChild, 1> children{test::child_of(floor_mesh(false))};
   Level level(compound_of(children));
   EXPECT_EQ(level.world.apply(SetMeshGroup{level.body, 0, false}), Status::not_found);
 }
 
 struct ShakenLevel : Level {
   ShakenLevel()
-      : Level(compound_of(std::array{part_of(floor_mesh(true)),
+      : Level(compound_of(std::array{test::child_of(floor_mesh(true)),
                                      box_at({7_m, -0.9_m, {}}, {2_m, 1_m, 5_m}),
-                                     part_of(test::sample_hull(), {-3_m, {}, -3_m})})) {
+                                     test::child_of(test::sample_hull(), {-3_m, {}, -3_m})})) {
     drop_some(*this);
+  }
+  [[nodiscard]] Status set(std::uint32_t group, bool is_on) {
+    return world.apply(SetMeshGroup{body, group, is_on});
   }
   void shake(int tick) {
     test::Random random(static_cast<std::uint64_t>(tick));
     const auto group = static_cast<std::uint32_t>(random.below(5));
     const bool is_on = random.below(2) == 0;
-    ASSERT_EQ(world.apply(SetMeshGroup{body, group, is_on}), Status::ok);
+    ASSERT_EQ(set(group, is_on), Status::ok);
   }
 };
 
 TEST(MeshCompounds, GoOnFromASnapshot) {
-  ShakenLevel one, other;
-  for (int tick = 0; tick < 120; ++tick) {
-    one.shake(tick);
-    const SnapshotKind kind = tick % 2 == 0 ? SnapshotKind::native : SnapshotKind::canonical;
-    ASSERT_EQ(other.world.load(kind, test::save(one.world, kind)), Status::ok) << tick;
-    ASSERT_FALSE(other.world.find_fault());
-    test::step(one.world, 1);
-    test::step(other.world, 1);
-    ASSERT_EQ(one.world.hash().total, other.world.hash().total) << tick;
-  }
+  test::expect_goes_on_from_snapshots<ShakenLevel>();
 }
 
-// Four ticks back in every ninth, with another switch first.
 TEST(MeshCompounds, AreRolledBack) {
-  ShakenLevel plain, rolled;
-  RollbackHistory history(rolled.world, 8);
-  std::vector<std::vector<std::byte>> saved;
-  for (int tick = 0; tick < 120; ++tick) {
-    plain.shake(tick);
-    test::step(plain.world, 1);
-    saved.push_back(test::save(rolled.world, SnapshotKind::native));
-    rolled.shake(tick);
-    (void)history.step();
-    if (tick % 9 == 8) {
-      const std::vector<std::byte>& back = saved[saved.size() - 4];
-      ASSERT_EQ(rolled.world.load(SnapshotKind::native, back), Status::ok);
-      ASSERT_EQ(rolled.world.apply(SetMeshGroup{rolled.body, 2, tick % 2 == 0}), Status::ok);
-      for (int again = 0; again < 4; ++again)
-        (void)history.step();
-      ASSERT_EQ(rolled.world.load(SnapshotKind::native, back), Status::ok);
-      for (int again = tick - 3; again <= tick; ++again) {
-        rolled.shake(again);
-        (void)history.step();
-      }
-    }
-    ASSERT_EQ(plain.world.hash().total, rolled.world.hash().total) << tick;
-  }
+  test::expect_is_rolled_back<ShakenLevel>();
 }
 
 }  // namespace

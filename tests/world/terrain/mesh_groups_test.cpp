@@ -8,11 +8,10 @@
 
 #include <lockstone/character.h>
 #include <lockstone/mesh.h>
-#include <lockstone/rollback_history.h>
 #include <lockstone/terrain.h>
 
 #include "tests/support/random.h"
-#include "tests/world/world_fixture.h"
+#include "tests/world/terrain/shaken.h"
 
 namespace lockstone {
 namespace {
@@ -246,44 +245,12 @@ struct Shaken : Floor {
   }
 };
 
-// Saved at any tick and loaded elsewhere: the same future.
 TEST(MeshGroups, GoOnFromASnapshot) {
-  Shaken one, other;
-  for (int tick = 0; tick < 120; ++tick) {
-    one.shake(tick);
-    const SnapshotKind kind = tick % 2 == 0 ? SnapshotKind::native : SnapshotKind::canonical;
-    ASSERT_EQ(other.world.load(kind, test::save(one.world, kind)), Status::ok) << tick;
-    ASSERT_FALSE(other.world.find_fault());
-    (void)one.world.step();
-    (void)other.world.step();
-    ASSERT_EQ(one.world.hash().total, other.world.hash().total) << tick;
-  }
+  test::expect_goes_on_from_snapshots<Shaken>();
 }
 
-// Four ticks back in every ninth, with another switch first.
 TEST(MeshGroups, AreRolledBack) {
-  Shaken plain, rolled;
-  RollbackHistory history(rolled.world, 8);
-  std::vector<std::vector<std::byte>> saved;
-  for (int tick = 0; tick < 120; ++tick) {
-    plain.shake(tick);
-    (void)plain.world.step();
-    saved.push_back(test::save(rolled.world, SnapshotKind::native));
-    rolled.shake(tick);
-    (void)history.step();
-    if (tick % 9 == 8) {
-      ASSERT_EQ(rolled.world.load(SnapshotKind::native, saved[saved.size() - 4]), Status::ok);
-      ASSERT_EQ(rolled.set(12, tick % 2 == 0), Status::ok);
-      for (int again = 0; again < 4; ++again)
-        (void)history.step();
-      ASSERT_EQ(rolled.world.load(SnapshotKind::native, saved[saved.size() - 4]), Status::ok);
-      for (int again = tick - 3; again <= tick; ++again) {
-        rolled.shake(again);
-        (void)history.step();
-      }
-    }
-    ASSERT_EQ(plain.world.hash().total, rolled.world.hash().total) << tick;
-  }
+  test::expect_is_rolled_back<Shaken>();
 }
 
 TEST(MeshGroups, GoWithABodyThatIsTeleported) {
