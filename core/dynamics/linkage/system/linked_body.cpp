@@ -102,6 +102,7 @@ void set_least_inertia(const JointRun& run, LinkedBody& body, std::int64_t least
   }
   body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
   run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
+  run.bodies[body.solver].is_heavier = least != 0;
 }
 
 // Without contacts gravity acts half before and half after, unless the move itself lies half

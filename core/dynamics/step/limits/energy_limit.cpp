@@ -33,6 +33,7 @@ std::int64_t row_energy(const EnergyLimit::Bodies& all, std::uint32_t i) {
   const Vec3<Velocity> velocity = velocity_of_row(all.rows[i].velocity),
                        spin = velocity_of_row(all.rows[i].spin);
   const Vec3<Velocity> surface = surface_velocity(all.bodies[i].inverse_inertia, spin);
+  if (!all.bodies[i].is_heavier) return energy_product(velocity, velocity, spin, surface);
   return energy_product(velocity, velocity,
                         all.joints.own_spin(all.numbers.side(i).body(), spin, surface), surface);
 }
