@@ -22,12 +22,13 @@ using lanes::BodyVelocity;
   }
 }
 
+// Offset by the bound, a value out of bounds has bit 62 or 63 set.
+inline std::uint64_t excess(std::int64_t x) {
+  return static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(k_row_bound);
+}
+
 // Adds a change to a body's velocity, within ±k_row_bound.
 inline void add_velocity(BodyVelocity& body, const RawVec3& velocity, const RawVec3& spin) {
-  // Offset by the bound, a value out of bounds has bit 62 or 63 set.
-  const auto excess = [](std::int64_t x) {
-    return static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(k_row_bound);
-  };
   const auto sum = [](std::int64_t x, std::int64_t by) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(x) +
                                      static_cast<std::uint64_t>(by));
@@ -47,7 +48,9 @@ inline void add_velocity(BodyVelocity& body, const RawVec3& velocity, const RawV
 }
 
 // The change between velocities clamped to bounds; contacts may push velocities out of them.
-std::int64_t gain(std::int64_t before, std::int64_t after) {
+inline std::int64_t gain(std::int64_t before, std::int64_t after) {
+  if ((excess(before) | excess(after)) >> 62 == 0) [[likely]]
+    return after - before;
   return bounded(after, k_row_bound) - bounded(before, k_row_bound);
 }
 
