@@ -84,17 +84,22 @@ void JointSolver::prepare(const JointRun& run, std::size_t first, std::size_t en
 }
 
 void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i)
+  for (std::size_t i = first; i < end; ++i) {
+    if (i + 1 < end) system_.prefetch(system_.clusters[i + 1]);
     stages_.warm_start(run, system_.clusters[i]);
+  }
 }
 
 void JointSolver::solve(const JointRun& run, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i)
+  for (std::size_t i = first; i < end; ++i) {
+    if (i + 1 < end) system_.prefetch(system_.clusters[i + 1]);
     stages_.solve(run, system_.clusters[i]);
+  }
 }
 
 void JointSolver::relax(const JointRun& run, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
+    if (i + 1 < end) system_.prefetch(system_.clusters[i + 1]);
     stages_.relax(run, system_.clusters[i]);
     account_.settle(run, system_.clusters[i]);
   }

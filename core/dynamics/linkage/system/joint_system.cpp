@@ -5,6 +5,20 @@
 #include <lockstone/assert.h>
 
 namespace lockstone {
+namespace {
+
+// Into the cache of the second level: there is room for several clusters.
+void prefetch_bytes(const void* from, const void* end) {
+#if defined(__GNUC__)
+  constexpr int k_writes = 1, k_second_level = 2;
+  for (const auto* at = static_cast<const char*>(from); at < end; at += 64)
+    __builtin_prefetch(at, k_writes, k_second_level);
+#else
+  (void)from, (void)end;
+#endif
+}
+
+}  // namespace
 
 JointSystem::JointSystem(const TimeStep& time_step, std::size_t body_capacity,
                          std::size_t joint_capacity)
@@ -46,6 +60,16 @@ void JointSystem::note_factor(JointGroup& group) {
   for (const std::uint32_t index : joints_of(group))
     joints[index].factored = list_rows(joints[index].rows);
   group.is_factored = group.is_fresh = true;
+}
+
+void JointSystem::prefetch(const JointCluster& cluster) const {
+  LKS_ASSERT(cluster.joint_count > 0);
+  const LinkedJoint* first = joints.data() + cluster.first_joint;
+  const LinkedJoint* last = first + cluster.joint_count - 1;
+  prefetch_bytes(first, last + 1);
+  prefetch_bytes(first->rows.rows.data(), last->rows.rows.data() + last->rows.rows.size());
+  for (const std::uint32_t body : bodies_of(cluster))
+    prefetch_bytes(&bodies[body], &bodies[body] + 1);
 }
 
 bool JointSystem::is_stiff(const JointGroup& group) const {

@@ -110,6 +110,9 @@ struct JointSystem {
   /// Notes that it has one of the present rows.
   void note_factor(JointGroup& group);
 
+  /// Asks the processor for the data of a cluster, which a stage will read soon. Changes nothing.
+  void prefetch(const JointCluster& cluster) const;
+
   /// Whether a body of the group is taken to be heavier to turn.
   [[nodiscard]] bool is_stiff(const JointGroup& group) const;
 
