@@ -7,6 +7,9 @@
 namespace lockstone {
 namespace {
 
+// As many joints, with their bodies and rows, stay in a cache of the second level by themselves.
+constexpr std::size_t k_cached_joints = 256;
+
 // Into the cache of the second level: there is room for several clusters.
 void prefetch_bytes(const void* from, const void* end) {
 #if defined(__GNUC__)
@@ -64,6 +67,7 @@ void JointSystem::note_factor(JointGroup& group) {
 
 void JointSystem::prefetch(const JointCluster& cluster) const {
   LKS_ASSERT(cluster.joint_count > 0);
+  if (joints.size() < k_cached_joints) return;
   const LinkedJoint* first = joints.data() + cluster.first_joint;
   const LinkedJoint* last = first + cluster.joint_count - 1;
   prefetch_bytes(first, last + 1);
