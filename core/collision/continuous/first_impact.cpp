@@ -153,8 +153,8 @@ class PiecesOfB final : public PieceVisitor {
   // The moment at which the middle of A, deep in B from the beginning, runs into it too: or a rod
   // would pass through a wall that its tip was in.
   [[nodiscard]] Hit cross(const SweptShape& b) const {
-    for (const int share : {4, 2, 1}) {
-      const TimeOfImpact found = find(k_last_depth, b, Unit::from_ratio(share, 8));
+    for (const int share : {32, 16, 8, 1}) {
+      const TimeOfImpact found = find(k_last_depth, b, Unit::from_ratio(share, 64));
       if (found.state == TimeOfImpactState::separated) return {};
       if (found.fraction > Unit{}) return {found.fraction, found.normal};
     }
