@@ -83,8 +83,9 @@ struct alignas(64) PairScratch {
 };
 
 /// One worker gets ids one after the other, until all contacts that a world has room for are
-/// there. Several get them by blocks, of which the last is left half empty, so that they may run
-/// out of ids before; the caller then begins again with one.
+/// there. Several get them by blocks, of which the last is left half empty, so that they need more;
+/// where they run out of them, or take more than one worker would get, the caller begins again with
+/// one. So which contacts find no room depends on their order alone.
 class ManifoldIds {
  public:
   static constexpr std::uint32_t k_none = 0xffffffff;
@@ -93,6 +94,7 @@ class ManifoldIds {
   void prepare(std::uint32_t contact_capacity, std::uint32_t workers, bool with_triangles) {
     const std::uint32_t spare =
         workers > 1 ? contact_capacity / 8 + 2 * k_block * workers : k_block;
+    room_ = contact_capacity + k_block;
     capacity_ = std::max(capacity_, contact_capacity + spare);
     while (scratch_.size() < workers) {
       scratch_.push_back(std::make_unique<PairScratch>());
@@ -106,6 +108,7 @@ class ManifoldIds {
   /// `with_batches`: pairs may wait for others, so that ids are not given out in their order.
   void begin(std::uint32_t workers, bool with_batches) {
     block_ = workers > 1 ? k_block : 1;
+    limit_ = workers > 1 ? capacity_ : room_;
     used_ = 0;
     out_of_ids_ = overflowed_ = has_elastic_ = has_seams_ = false;
     dropped_ = 0;
@@ -119,12 +122,14 @@ class ManifoldIds {
   std::uint32_t take(PairScratch& scratch, std::uint32_t count) {
     scratch.taken += count;
     if (scratch.end - scratch.next < count) {
-      const std::uint32_t size = std::max(block_, count);
+      // One worker goes on with an id that it gave back.
+      const std::uint32_t left = block_ == 1 ? scratch.end - scratch.next : 0;
+      const std::uint32_t size = std::max(block_, count - left);
       // Nobody asks on once it is known that there is no more, so that the number does not wrap.
       if (out_of_ids_.load(std::memory_order_relaxed)) return k_none;
-      scratch.next = used_.fetch_add(size, std::memory_order_relaxed);
-      scratch.end = scratch.next + size;
-      if (scratch.end > capacity_) {
+      scratch.next = used_.fetch_add(size, std::memory_order_relaxed) - left;
+      scratch.end = scratch.next + left + size;
+      if (scratch.end > limit_) {
         scratch.next = scratch.end = 0;
         out_of_ids_.store(true, std::memory_order_relaxed);
         return k_none;
@@ -141,7 +146,8 @@ class ManifoldIds {
     if (id != k_none) --scratch.next;
   }
 
-  [[nodiscard]] bool is_out_of_ids() const { return out_of_ids_; }
+  /// Whether some contact has no id, or would have none if one worker had taken them.
+  [[nodiscard]] bool is_out_of_ids() const { return out_of_ids_ || taken_at_first() > room_; }
 
   /// Contacts since `begin`, those without an id included, those dropped not.
   [[nodiscard]] std::uint32_t taken() const { return taken_at_first() - dropped_; }
@@ -182,6 +188,8 @@ class ManifoldIds {
 
   std::vector<std::unique_ptr<PairScratch>> scratch_;  // by worker
   std::uint32_t capacity_ = 0;
+  std::uint32_t room_ = 0;   // of one worker
+  std::uint32_t limit_ = 0;  // of all in this run
   std::uint32_t block_ = 1;
   std::atomic<std::uint32_t> used_{0};
   std::atomic<bool> out_of_ids_{false};
