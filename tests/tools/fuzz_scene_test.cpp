@@ -34,7 +34,7 @@ TEST(FuzzScenes, ThatFailedOnceHold) {
       {20261122, 1275},  // angular momenta at the end of their range
       {20261122, 1331},  // a factor of rows that say the same twice
       {20261123, 1630},  // a joint's force at the end of its type along two axes, turned
-      {77, 156, true},   // contacts of the last pairs found room or not, by what was derived before
+      {77, 156, true},   // which contacts found no room followed from derived data
   };
   for (const Scene& scene : k_scenes) {
     SceneFuzzOptions options;
