@@ -151,7 +151,9 @@ ImportOutcome build_compound(const ObjModel& model, const ObjImport& options,
   for (const auto& [index, faces] : objects_of(model, surface_of)) {
     CompoundChild child;
     if (std::ranges::find(options.meshes, names[index]) != options.meshes.end()) {
-      const auto is_in = [&](const ObjTriangle& t) { return object_of(model, t) == index; };
+      const auto is_in = [&, object = index](const ObjTriangle& t) {
+        return object_of(model, t) == object;
+      };
       if (ImportOutcome fault = build_mesh_of(model, options, surface_of, is_in, child.asset, out))
         return fault_at(faces.line, fmt::format("'{}': {}", names[index], fault->reason));
     } else {

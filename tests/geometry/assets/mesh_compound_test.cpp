@@ -36,7 +36,7 @@ class CollectKinds final : public geometry::PartVisitor {
 
 TriangleVertices from_lowest(TriangleVertices t) {
   const auto key = [](const Vec3<Length>& v) { return std::tuple(v.x, v.y, v.z); };
-  std::ranges::rotate(t, std::ranges::min_element(t, {}, key));
+  std::rotate(t.begin(), std::ranges::min_element(t, {}, key), t.end());
   return t;
 }
 
