@@ -41,9 +41,28 @@ World make_crowd(std::uint32_t pair_capacity, std::uint32_t contact_capacity) {
   return world;
 }
 
-void expect_same(std::uint32_t pair_capacity, std::uint32_t contact_capacity, TaskRunner& runner) {
-  World alone = make_crowd(pair_capacity, contact_capacity);
-  World shared = make_crowd(pair_capacity, contact_capacity);
+// Balls beside the corners of tiles: four contacts each, of which one is left once seams are
+// removed.
+World make_balls_beside_corners(std::uint32_t contact_capacity) {
+  constexpr int k_tiles = 8;
+  const WorldDef def{
+      .body_capacity = 256, .pair_capacity = 1024, .contact_capacity = contact_capacity};
+  World world = World::create(def).value();
+  for (int i = 0; i < k_tiles * k_tiles; ++i) {
+    BodyDef tile =
+        test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), Position::from_integer(i % k_tiles), {},
+                           Position::from_integer(i / k_tiles));
+    tile.motion = MotionType::static_body;
+    test::add(world, tile);
+  }
+  const auto beside = [](int tile) { return Position::from_ratio(100 * tile + 47, 100); };
+  for (int i = 0; i < (k_tiles - 1) * (k_tiles - 1); ++i)
+    test::add(world, test::dynamic_body(Shape::sphere(0.1_m), beside(i % (k_tiles - 1)),
+                                        Position::from_ratio(6, 10), beside(i / (k_tiles - 1))));
+  return world;
+}
+
+void expect_same(World alone, World shared, TaskRunner& runner) {
   shared.set_task_runner(&runner, TaskPieces::smallest);
   bool exhausted = false;
   for (int tick = 0; tick < test::share_of(20); ++tick) {
@@ -58,19 +77,24 @@ void expect_same(std::uint32_t pair_capacity, std::uint32_t contact_capacity, Ta
 TEST(WorldOnThreads, LeavesOutTheSameContacts) {
   for (const std::uint32_t capacity : {1U, 150U, 333U}) {
     ThreadPool pool(4);
-    expect_same(4096, capacity, pool);
+    expect_same(make_crowd(4096, capacity), make_crowd(4096, capacity), pool);
     test::ShuffledRunner shuffled(7);
-    expect_same(4096, capacity, shuffled);
+    expect_same(make_crowd(4096, capacity), make_crowd(4096, capacity), shuffled);
   }
 }
 
 TEST(WorldOnThreads, LeavesOutTheSamePairs) {
   for (const std::uint32_t capacity : {1U, 400U}) {
     ThreadPool pool(3);
-    expect_same(capacity, 4096, pool);
+    expect_same(make_crowd(capacity, 4096), make_crowd(capacity, 4096), pool);
     test::ShuffledRunner shuffled(64);
-    expect_same(capacity, 4096, shuffled);
+    expect_same(make_crowd(capacity, 4096), make_crowd(capacity, 4096), shuffled);
   }
+}
+
+TEST(WorldOnThreads, LeavesOutTheSameContactsWhereRoomIsShortUntilSeamsAreRemoved) {
+  ThreadPool pool(4);
+  expect_same(make_balls_beside_corners(60), make_balls_beside_corners(60), pool);
 }
 
 }  // namespace
