@@ -25,6 +25,7 @@ TEST(FuzzScenes, ThatFailedOnceHold) {
   struct Scene {
     std::uint64_t seed, index;
     bool with_rims = false;  // most were found before there were any
+    std::uint32_t ticks = 60;
   };
   constexpr Scene k_scenes[] = {
       {20261121, 104},   // locks opened for a body whose joint sat too far away for one that turns
@@ -34,7 +35,7 @@ TEST(FuzzScenes, ThatFailedOnceHold) {
       {20261122, 1275},  // angular momenta at the end of their range
       {20261122, 1331},  // a factor of rows that say the same twice
       {20261123, 1630},  // a joint's force at the end of its type along two axes, turned
-      {77, 156, true},   // which contacts found no room followed from derived data
+      {77, 156, true, 8},  // which contacts found no room followed from derived data
   };
   for (const Scene& scene : k_scenes) {
     SceneFuzzOptions options;
@@ -42,6 +43,7 @@ TEST(FuzzScenes, ThatFailedOnceHold) {
     options.first = scene.index;
     options.count = 1;
     options.with_rims = scene.with_rims;
+    options.ticks = scene.ticks;
     EXPECT_TRUE(fuzz_scenes(options).failures.empty()) << scene.seed << ", scene " << scene.index;
   }
 }
