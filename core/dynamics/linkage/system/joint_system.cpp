@@ -12,7 +12,7 @@ constexpr std::size_t k_cached_joints = 1024;
 
 // Into the cache of the second level: there is room for several clusters.
 void prefetch_bytes(const void* from, const void* end) {
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__wasm__)  // WebAssembly has no such instruction
   constexpr int k_writes = 1, k_second_level = 2;
   for (const auto* at = static_cast<const char*>(from); at < end; at += 64)
     __builtin_prefetch(at, k_writes, k_second_level);
