@@ -61,7 +61,7 @@ struct World::Impl : WorldData {
   NarrowPhase narrow;
   MovedBodies moved;
   LeftOut left_out;
-  std::unique_ptr<ContactSolver> solver;  // its headers would double the time to compile this one
+  std::unique_ptr<ContactSolver> solver;  // its headers would take as long to compile as all others here
   ContinuousCollision continuous;
   TriggerPasses passes;
   BodyMover mover;

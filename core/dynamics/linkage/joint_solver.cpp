@@ -9,6 +9,19 @@
 #include "core/dynamics/linkage/rows/pulled_links.h"
 
 namespace lockstone {
+namespace {
+
+// In a substep: loads the next cluster while the work for one is done.
+template <class Work>
+void for_each_cluster(JointSystem& system, std::size_t first, std::size_t end, const Work& work) {
+  LKS_ASSERT(end <= system.clusters.size());
+  for (std::size_t i = first; i < end; ++i) {
+    if (i + 1 < end) system.prefetch(system.clusters[i + 1]);
+    work(system.clusters[i]);
+  }
+}
+
+}  // namespace
 
 JointSolver::JointSolver(const TimeStep& step, std::size_t world_capacity,
                          std::size_t joint_capacity, bool solves_loops)
@@ -84,25 +97,20 @@ void JointSolver::prepare(const JointRun& run, std::size_t first, std::size_t en
 }
 
 void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i) {
-    if (i + 1 < end) system_.prefetch(system_.clusters[i + 1]);
-    stages_.warm_start(run, system_.clusters[i]);
-  }
+  for_each_cluster(system_, first, end,
+                   [&](JointCluster& cluster) { stages_.warm_start(run, cluster); });
 }
 
 void JointSolver::solve(const JointRun& run, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i) {
-    if (i + 1 < end) system_.prefetch(system_.clusters[i + 1]);
-    stages_.solve(run, system_.clusters[i]);
-  }
+  for_each_cluster(system_, first, end,
+                   [&](JointCluster& cluster) { stages_.solve(run, cluster); });
 }
 
 void JointSolver::relax(const JointRun& run, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i) {
-    if (i + 1 < end) system_.prefetch(system_.clusters[i + 1]);
-    stages_.relax(run, system_.clusters[i]);
-    account_.settle(run, system_.clusters[i]);
-  }
+  for_each_cluster(system_, first, end, [&](JointCluster& cluster) {
+    stages_.relax(run, cluster);
+    account_.settle(run, cluster);
+  });
 }
 
 void JointSolver::place(const JointRun& run, std::size_t first, std::size_t end) const {

@@ -27,7 +27,7 @@ class EditedAssets {
   EditedAssets() = default;
 };
 
-/// Of one kind.
+/// Of one kind, whose `whole` is the geometry of a body.
 template <class Edited>
 class EditedSlots final : public EditedAssets {
  public:
@@ -38,7 +38,7 @@ class EditedSlots final : public EditedAssets {
   }
   const AssetGeometry* set(std::uint32_t slot, const AssetGeometry& base,
                            std::span<const HeightTile> tiles) override {
-    return &slots_[slot].emplace(base, tiles);
+    return slots_[slot].emplace(base, tiles).whole();
   }
 
  private:

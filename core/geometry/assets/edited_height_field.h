@@ -46,6 +46,7 @@ class EditedHeightField final : public AssetGeometry {
   [[nodiscard]] const LocalBounds& bounds() const override { return bounds_; }
   [[nodiscard]] const MeshKernels* mesh_kernels() const override;
   [[nodiscard]] const AssetGeometry* triangles() const override { return this; }
+  [[nodiscard]] const AssetGeometry* whole() const { return this; }
   void visit_parts(const LocalBounds& region, PartVisitor& visitor) const override;
   void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
                           const Vec3<Length>& reach, WayPartVisitor& visitor) const override;

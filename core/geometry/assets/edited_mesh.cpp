@@ -1,7 +1,6 @@
 // A mesh as a world has switched its groups.
 #include <algorithm>
 #include <optional>
-#include <vector>
 
 #include "core/geometry/assets/mesh_editing.h"
 #include "core/geometry/assets/mesh_geometry.h"
@@ -72,32 +71,26 @@ class EditedMesh final : public AssetGeometry {
 };
 
 /// With the convex parts of a compound, where the body has some.
-class EditedMeshes final : public EditedAssets {
+class EditedMeshAsset {
  public:
-  explicit EditedMeshes(std::uint32_t capacity) : slots_(capacity) {}
-
-  [[nodiscard]] std::uint32_t slots() const override {
-    return static_cast<std::uint32_t>(slots_.size());
+  EditedMeshAsset(const AssetGeometry& base, std::span<const HeightTile> tiles)
+      : triangles_(base, tiles) {
+    if (base.solids() != nullptr) mixed_.emplace(*base.solids(), triangles_);
   }
-  const AssetGeometry* set(std::uint32_t slot, const AssetGeometry& base,
-                           std::span<const HeightTile> tiles) override {
-    Slot& place = slots_[slot];
-    const EditedMesh& triangles = place.triangles.emplace(base, tiles);
-    if (base.solids() == nullptr) return &triangles;
-    return &place.mixed.emplace(*base.solids(), triangles);
+  EditedMeshAsset(const EditedMeshAsset&) = delete;  // one part refers to the other
+  EditedMeshAsset& operator=(const EditedMeshAsset&) = delete;
+
+  [[nodiscard]] const AssetGeometry* whole() const {
+    return mixed_ ? static_cast<const AssetGeometry*>(&*mixed_) : &triangles_;
   }
 
  private:
-  struct Slot {
-    std::optional<EditedMesh> triangles;
-    std::optional<MixedGeometry> mixed;
-  };
-
-  std::vector<Slot> slots_;
+  EditedMesh triangles_;
+  std::optional<MixedGeometry> mixed_;
 };
 
 std::unique_ptr<EditedAssets> make_edited_meshes(std::uint32_t capacity) {
-  return std::make_unique<EditedMeshes>(capacity);
+  return std::make_unique<EditedSlots<EditedMeshAsset>>(capacity);
 }
 
 const LocalBounds* bounds_of_group(const AssetGeometry& geometry, std::uint32_t group) {
