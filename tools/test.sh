@@ -19,8 +19,8 @@
 #   --bindings   also test the bindings of Rust and C#, whose compilers are installed. Without it they are
 #                tested where the compilers are there already
 #   --werror     compiler warnings are errors
-#   --unity      compile net, replay and tool in batches of files: a build from nothing takes less time,
-#                a build after an edit more. Core is not: programs link single files of it
+#   --unity      compile batches of files: a build from nothing takes less time, a build after an edit
+#                more. Of core only files that every program with a world links: others it links singly
 #   --help       print this
 #
 # Missing Debian packages are installed first (as root or through sudo). LOCKSTONE_JOBS bounds the

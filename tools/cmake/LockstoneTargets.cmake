@@ -47,6 +47,43 @@ function(lockstone_unite_sources target)
   endforeach()
 endfunction()
 
+# lockstone_compile_at(TARGET LEVEL source…): compiles files of core with the option LEVEL, if it is not empty.
+# A file that was given a level before keeps it. CMake does not unite files with options of their own, so
+# where LOCKSTONE_UNITY_BUILD is SESSION this function does: up to sixteen files of a room with the same
+# level. It leaves the rooms of which programs link single files.
+function(lockstone_compile_at target level)
+  set(sources ${ARGN})
+  foreach(source IN LISTS sources)
+    get_source_file_property(placed ${source} LOCKSTONE_PLACED)
+    if(placed)
+      list(REMOVE_ITEM sources ${source})
+    endif()
+  endforeach()
+  set_source_files_properties(${sources} PROPERTIES LOCKSTONE_PLACED ON COMPILE_OPTIONS "${level}")
+  if(NOT LOCKSTONE_UNITY_BUILD STREQUAL "SESSION")
+    return()
+  endif()
+  foreach(room IN ITEMS collision dynamics world)
+    set(rest ${sources})
+    list(FILTER rest INCLUDE REGEX "^${room}/")
+    set(batch 0)
+    while(rest)
+      list(SUBLIST rest 0 16 united)
+      list(REMOVE_ITEM rest ${united})
+      set(includes)
+      foreach(source IN LISTS united)
+        string(APPEND includes "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${source}\"\n")
+      endforeach()
+      set(unit ${CMAKE_CURRENT_BINARY_DIR}/united/${room}${level}_${batch}.cpp)
+      file(CONFIGURE OUTPUT ${unit} CONTENT "${includes}" @ONLY)
+      target_sources(${target} PRIVATE ${unit})
+      set_source_files_properties(${unit} PROPERTIES COMPILE_OPTIONS "${level}")
+      set_source_files_properties(${united} PROPERTIES HEADER_FILE_ONLY ON)
+      math(EXPR batch "${batch} + 1")
+    endwhile()
+  endforeach()
+endfunction()
+
 # lockstone_add_library(NAME room sources…): one of the three libraries. NAME `core` gives the target
 # lockstone_core, known as lockstone::core here and to those who find_package(lockstone).
 function(lockstone_add_library name)
