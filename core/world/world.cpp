@@ -186,7 +186,7 @@ BodyView World::body(BodyHandle body) const {
           .is_asleep = record->is_asleep(),
           .is_enabled = is_enabled(*record),
           .allow_sleep = record->may_sleep(),
-          .events = {has_contact_events(*record), record->hit_speed},
+          .events = {has_contact_events(*record), record->hit_speed, has_persist_events(*record)},
           .user_data = record->user_data};
 }
 

@@ -191,6 +191,7 @@ TEST(CLibrary, JointsHaveTheNumbersOfTheCore) {
 TEST(CLibrary, EventsHaveTheNumbersOfTheCore) {
   expect_same(LKS_CONTACT_END, EventKind::contact_end);
   expect_same(LKS_TRIGGER_ENTER, EventKind::trigger_enter);
+  expect_same(LKS_CONTACT_PERSIST, EventKind::contact_persist);
   expect_same(LKS_TRIGGER_STAY, EventKind::trigger_stay);
   expect_same(LKS_TRIGGER_EXIT, EventKind::trigger_exit);
   expect_same(LKS_IMPACT, EventKind::impact);

@@ -128,8 +128,8 @@ TEST_F(CommandsThroughC, AViewShowsTheBodyAsTheCoreDoes) {
               "material");
   expect_same(world_->apply(SetAxisLocks{box_, {.move_z = true, .turn_x = true}}),
               lks_set_axis_locks(twin_, box, LKS_LOCK_MOVE_Z | LKS_LOCK_TURN_X), "locks");
-  expect_same(world_->apply(SetEvents{box_, {false, SolverVelocity::from_integer(2)}}),
-              lks_set_events(twin_, box, 0, 2 << LKS_SPEED_BITS), "events");
+  expect_same(world_->apply(SetEvents{box_, {false, SolverVelocity::from_integer(2), true}}),
+              lks_set_events(twin_, box, LKS_BODY_PERSIST_EVENTS, 2 << LKS_SPEED_BITS), "events");
   expect_same(world_->apply(SetUserData{box_, 1234}), lks_set_user_data(twin_, box, 1234), "data");
   expect_same(world_->apply(SetAllowSleep{box_, false}), lks_set_allow_sleep(twin_, box, 0),
               "allow sleep");

@@ -37,7 +37,12 @@ class Worlds(unittest.TestCase):
             kinds += [(event.kind, {event.a, event.b}) for event in world.events()]
         self.assertAlmostEqual(float(ball.position[1]), 0.25, places=3)
         self.assertIn((lockstone.CONTACT_BEGIN, {ground, ball}), kinds)
-        self.assertEqual(world.tick, 180)
+        self.assertNotIn(lockstone.CONTACT_PERSIST, [kind for kind, _ in kinds])
+        ball.set_events(persist=True)
+        ball.set_velocity((0, 0, 0))
+        world.step()
+        self.assertIn(lockstone.CONTACT_PERSIST, [event.kind for event in world.events()])
+        self.assertEqual(world.tick, 181)
 
     def test_a_hit_tells_where_and_how_hard(self):
         world = small_world()

@@ -87,6 +87,7 @@ PairSurface CommandDice::pair_surface() {
 EventSettings CommandDice::events() {
   EventSettings settings{!chance(4), {}};
   if (chance(2)) settings.hit_speed = size_of(number(SolverVelocity::from_integer(2)));
+  settings.persist = settings.hit_speed.raw % 2 != 0;  // draws no number of its own
   return settings;
 }
 

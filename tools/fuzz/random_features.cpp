@@ -36,6 +36,7 @@ void drive_events(World& world, std::uint64_t seed) {
     EventSettings events{!chance(random, 4), {}};
     if (chance(random, 2))
       events.hit_speed.raw = static_cast<std::int32_t>(log_between(random, 1, 500 << 20));
+    events.persist = chance(random, 4);
     return events;
   };
   for (std::uint32_t i = 0; world.tick() == 0 && i < world.body_limit(); ++i)

@@ -18,6 +18,7 @@ enum BodyFlag : std::uint8_t {
   k_body_asleep = 8,          // neither moves nor is looked at; its velocities are zero
   k_body_no_sleep = 16,       // never falls asleep
   k_body_changed_sleep = 32,  // sleeps and did not at the last events, or the reverse; dynamic
+  k_body_persist_events = 64,
   k_body_no_contact_events = 128,
 };
 
@@ -163,9 +164,12 @@ struct BodyRecord {
   return body.loose_time != 0;
 }
 
-/// EventSettings::contacts.
+/// EventSettings.
 [[nodiscard]] inline bool has_contact_events(const BodyRecord& body) {
   return (body.flags & k_body_no_contact_events) == 0;
+}
+[[nodiscard]] inline bool has_persist_events(const BodyRecord& body) {
+  return (body.flags & k_body_persist_events) != 0;
 }
 [[nodiscard]] inline bool has_hit_events(const BodyRecord& body) {
   return body.hit_speed > SolverVelocity{};

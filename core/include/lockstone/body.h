@@ -59,6 +59,9 @@ struct EventSettings {
   /// A pair that approaches faster has a HitEvent; of two such speeds the lower counts. 0 … 500
   /// m/s; 0: the body asks for none.
   SolverVelocity hit_speed{};
+  /// contact_persist: a pair with contact events has one in every tick in which it goes on
+  /// touching, if one of the two asks. A world in which no body asks spends no time on it.
+  bool persist = false;
 
   friend constexpr bool operator==(const EventSettings&, const EventSettings&) = default;
 };

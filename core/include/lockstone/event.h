@@ -19,13 +19,14 @@ enum class EventKind : std::uint8_t {
   impact = 5,  ///< `a` was stopped on its way by `b` within the tick and may have left it again
   sleep = 6,   ///< dynamic body `a` fell asleep; `b` is null
   wake = 7,    ///< dynamic body `a` woke in this step or by a command before it; `b` is null
+  contact_persist = 8,  ///< the two touch, as a tick ago; of bodies that ask for it (EventSettings)
 };
 [[nodiscard]] std::string_view to_string(EventKind kind);
 
 /// A body that passes a trigger within a tick enters and exits in that tick, in this order.
 /// Contacts and triggers come first, by pair; then impacts; then sleep and wake, by body.
 /// Destroying or teleporting a body drops its contacts without an event. While neither body of a
-/// pair is awake it has no events: trigger_stay goes on once one of them wakes.
+/// pair is awake it has no events: trigger_stay and contact_persist go on once one of them wakes.
 struct ContactEvent {
   EventKind kind{};
   BodyHandle a{};

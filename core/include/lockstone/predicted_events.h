@@ -5,8 +5,9 @@
 // Each event is then new (play its sound), or one that was told before (leave it alone); and where
 // a rollback takes an event away that was told, it is revoked (stop its sound). Two events are the
 // same if their kinds and bodies are, and if a rollback moved the event by no more than a few
-// ticks. For the game's own use: neither state nor a part of the simulation.
-// docs/how-to/events.md shows the use.
+// ticks. Events that come in every tick while something lasts (contact_persist, trigger_stay) are
+// one event: new in its first tick, and told before in those that follow. For the game's own use:
+// neither state nor a part of the simulation. docs/how-to/events.md shows the use.
 #pragma once
 
 #include <cstddef>
@@ -30,6 +31,9 @@ struct EventName {
 };
 inline constexpr std::uint32_t k_own_event_kinds = 0x100;
 
+/// Whether a name is that of contact_persist or trigger_stay, whose events last.
+[[nodiscard]] bool is_lasting(const EventName& name);
+
 /// Of a contact event: its EventKind and its bodies. A HitEvent and a JointEvent have kinds of
 /// their own.
 [[nodiscard]] EventName name_of(const ContactEvent& event);
@@ -50,7 +54,7 @@ class PredictedEvents {
   struct Event {
     std::uint64_t id = 0;  ///< from 1 on, never given out twice
     EventName name{};
-    std::uint64_t tick = 0;  ///< in which it happens, as of now
+    std::uint64_t tick = 0;  ///< in which it happens, or begins to last, as of now
   };
   struct Told {
     std::uint64_t id = 0;  ///< of the event; 0: no room for it, and it will not be revoked
@@ -63,7 +67,8 @@ class PredictedEvents {
   Told add(const EventName& name);
   /// Returns the events that never happened, in the order in which they were told first; valid
   /// until the next call. An event is revoked once its tick and the window after it were stepped
-  /// again without it.
+  /// again without it; one that lasts, if it does not even begin. One that ends sooner than was
+  /// guessed is not told any more.
   std::span<const Event> end_tick();
 
   /// Ticks up to this one are final: no rollback goes back to them. Makes room.
@@ -79,10 +84,12 @@ class PredictedEvents {
  private:
   struct Entry {
     Event event;
-    bool is_pending = false;  // of a tick that is being stepped again, and not told again yet
+    std::uint64_t last_tick = 0;  // event.tick, unless it lasts
+    bool is_pending = false;      // of a tick that is being stepped again, and not told again yet
   };
 
   [[nodiscard]] Entry* find_pending(const EventName& name);
+  [[nodiscard]] Entry* find_lasting(const EventName& name);
   template <class IsRevoked>
   std::span<const Event> revoke(IsRevoked&& is_revoked);
 

@@ -149,7 +149,7 @@ Status BodyRegistry::destroy(BodyHandle body) {
   drop_contacts_of(index);
   world_.broad_phase.remove(index);
   world_.triggers.erase(index);
-  world_.cache.forget_hit_events(index);
+  world_.cache.forget_events(index);
   BodyRecord empty;
   empty.generation = record->generation;
   world_.bodies[index] = empty;

@@ -43,9 +43,9 @@ std::string_view to_string(AxisMode mode) {
   return name_of(k_names, mode);
 }
 std::string_view to_string(EventKind kind) {
-  constexpr std::array<std::string_view, 8> k_names{
-      "contact begin", "contact end", "trigger enter", "trigger stay",
-      "trigger exit",  "impact",      "sleep",         "wake"};
+  constexpr std::array<std::string_view, 9> k_names{
+      "contact begin", "contact end", "trigger enter", "trigger stay",   "trigger exit",
+      "impact",        "sleep",       "wake",          "contact persist"};
   return name_of(k_names, kind);
 }
 std::string_view to_string(BroadPhaseKind kind) {

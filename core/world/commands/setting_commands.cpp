@@ -33,9 +33,11 @@ AxisLocks axis_locks(std::uint8_t bits) {
 }
 
 void set_events(BodyRecord& record, const EventSettings& settings) {
-  record.flags =
-      static_cast<std::uint8_t>(settings.contacts ? record.flags & ~k_body_no_contact_events
-                                                  : record.flags | k_body_no_contact_events);
+  const auto set = [&](BodyFlag flag, bool on) {
+    record.flags = static_cast<std::uint8_t>(on ? record.flags | flag : record.flags & ~flag);
+  };
+  set(k_body_no_contact_events, !settings.contacts);
+  set(k_body_persist_events, settings.persist);
   record.hit_speed = settings.hit_speed;
 }
 
@@ -175,7 +177,7 @@ Status CommandExecutor::execute(const SetEvents& command) {
   if (record == nullptr) return Status::stale_handle;
   if (!is_hit_speed(command.settings.hit_speed)) return Status::invalid_argument;
   set_events(*record, command.settings);
-  world_.cache.refresh_hit_events(command.body.index, *record);
+  world_.cache.refresh_events(command.body.index, *record);
   return Status::ok;
 }
 

@@ -10,7 +10,8 @@ BodyCache::BodyCache(std::uint32_t body_capacity)
       recycling_pose_numbers_(body_capacity),
       frames_(body_capacity),
       inner_radii_(body_capacity),
-      hit_bodies_(body_capacity) {}
+      hit_bodies_(body_capacity),
+      persist_bodies_(body_capacity) {}
 
 PlacedShape BodyCache::placed(std::uint32_t body, const BodyRecord& record) const {
   if (assets_[body] == nullptr)
@@ -34,11 +35,12 @@ void BodyCache::refresh(std::uint32_t body, const BodyRecord& record) {
 
 void BodyCache::refresh_shape(std::uint32_t body, const BodyRecord& record) {
   inner_radii_[body] = lockstone::inner_radius(record.shape(), assets_[body]);
-  refresh_hit_events(body, record);
+  refresh_events(body, record);
 }
 
-void BodyCache::refresh_hit_events(std::uint32_t body, const BodyRecord& record) {
+void BodyCache::refresh_events(std::uint32_t body, const BodyRecord& record) {
   if (hit_bodies_.has(body) != has_hit_events(record)) hit_bodies_.flip(body);
+  if (persist_bodies_.has(body) != has_persist_events(record)) persist_bodies_.flip(body);
 }
 
 void BodyCache::refresh_turned(std::uint32_t body, const BodyRecord& record) {

@@ -53,10 +53,18 @@ class BodyCache {
 
   /// Bodies with hit events.
   [[nodiscard]] const IndexSet& hit_bodies() const { return hit_bodies_; }
+  /// Bodies that ask for an event in each tick of a contact.
+  [[nodiscard]] const IndexSet& persist_bodies() const { return persist_bodies_; }
   /// After a change of the event settings; `refresh_shape` does so too.
-  void refresh_hit_events(std::uint32_t body, const BodyRecord& record);
-  void forget_hit_events(std::uint32_t body) { hit_bodies_.erase(body); }
-  void forget_hit_events() { hit_bodies_.clear(); }
+  void refresh_events(std::uint32_t body, const BodyRecord& record);
+  void forget_events(std::uint32_t body) {
+    hit_bodies_.erase(body);
+    persist_bodies_.erase(body);
+  }
+  void forget_events() {
+    hit_bodies_.clear();
+    persist_bodies_.clear();
+  }
 
   /// The body's shape where it is.
   [[nodiscard]] PlacedShape placed(std::uint32_t body, const BodyRecord& record) const;
@@ -85,6 +93,7 @@ class BodyCache {
   std::vector<ShapeFrame> frames_;  // kept where an asset is
   std::vector<Length> inner_radii_;
   IndexSet hit_bodies_;
+  IndexSet persist_bodies_;
 };
 
 }  // namespace lockstone

@@ -32,6 +32,11 @@ EventName name_of(const JointEvent& event) {
   return {k_joint_kind, number_of(event.joint), 0};
 }
 
+bool is_lasting(const EventName& name) {
+  return name.kind == static_cast<std::uint32_t>(EventKind::contact_persist) ||
+         name.kind == static_cast<std::uint32_t>(EventKind::trigger_stay);
+}
+
 PredictedEvents::PredictedEvents(const Settings& settings) : settings_(settings) {
   LKS_ASSERT(settings.capacity >= 1);
   entries_.reserve(settings.capacity);
@@ -40,8 +45,13 @@ PredictedEvents::PredictedEvents(const Settings& settings) : settings_(settings)
 
 void PredictedEvents::begin_tick(std::uint64_t tick) {
   if (has_tick_ && tick <= tick_) {
-    for (Entry& entry : entries_)
-      if (entry.event.tick >= tick) entry.is_pending = true;
+    for (Entry& entry : entries_) {
+      if (entry.event.tick >= tick) {
+        entry.is_pending = true;
+      } else if (!entry.is_pending) {
+        entry.last_tick = std::min(entry.last_tick, tick - 1);
+      }
+    }
   }
   has_tick_ = true;
   tick_ = tick;
@@ -61,18 +71,32 @@ PredictedEvents::Entry* PredictedEvents::find_pending(const EventName& name) {
   return nearest;
 }
 
+// One that lasted until the tick before, or was told in this one.
+PredictedEvents::Entry* PredictedEvents::find_lasting(const EventName& name) {
+  if (!is_lasting(name)) return nullptr;
+  const auto lasts = [&](const Entry& entry) {
+    return !entry.is_pending && entry.event.name == name && entry.last_tick + 1 >= tick_;
+  };
+  const auto found = std::ranges::find_if(entries_, lasts);
+  return found == entries_.end() ? nullptr : &*found;
+}
+
 PredictedEvents::Told PredictedEvents::add(const EventName& name) {
   LKS_ASSERT(has_tick_);
+  if (Entry* known = find_lasting(name)) {
+    known->last_tick = tick_;
+    return {known->event.id, false};
+  }
   if (Entry* known = find_pending(name)) {
     known->is_pending = false;
-    known->event.tick = tick_;
+    known->event.tick = known->last_tick = tick_;
     return {known->event.id, false};
   }
   if (entries_.size() == settings_.capacity) {
     ++dropped_;
     return {0, true};
   }
-  entries_.push_back({{++last_id_, name, tick_}, false});
+  entries_.push_back({{++last_id_, name, tick_}, tick_, false});
   return {last_id_, true};
 }
 
@@ -91,9 +115,12 @@ std::span<const PredictedEvents::Event> PredictedEvents::end_tick() {
   });
 }
 
+// One that lasts may go on in the tick after.
 void PredictedEvents::confirm(std::uint64_t tick) {
-  std::erase_if(entries_,
-                [&](const Entry& entry) { return !entry.is_pending && entry.event.tick <= tick; });
+  std::erase_if(entries_, [&](const Entry& entry) {
+    const std::uint64_t end = entry.last_tick + (is_lasting(entry.event.name) ? 1 : 0);
+    return !entry.is_pending && end <= tick;
+  });
 }
 
 std::span<const PredictedEvents::Event> PredictedEvents::reset() {

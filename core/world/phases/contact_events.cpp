@@ -21,6 +21,14 @@ Pair bodies_of(const ContactRecord& record) {
   return {record.body_a, record.body_b};
 }
 
+// Of a pair that touched, or overlapped, a tick ago and does now; at least one of the two.
+EventKind kind_of(bool trigger, bool was, bool is) {
+  LKS_ASSERT(was || is);
+  if (!is) return trigger ? EventKind::trigger_exit : EventKind::contact_end;
+  if (!was) return trigger ? EventKind::trigger_enter : EventKind::contact_begin;
+  return trigger ? EventKind::trigger_stay : EventKind::contact_persist;
+}
+
 // Takes a pair of bodies from both lists that has one contact, which touches as it did: no event.
 bool skip_unchanged(Records& before, Records& now) {
   if (before.empty() || now.empty()) return false;
@@ -63,20 +71,23 @@ ContactEvents::ContactEvents(WorldData& world, TickContacts& found)
   piece_ends_.reserve(world.def.contact_capacity / k_piece + 1);
 }
 
-// Begin, stay or end, from a pair's states before and now.
+// Whether a pair whose contact goes on may have events of it.
+bool ContactEvents::asks(const Pair& pair) const {
+  const IndexSet& bodies = world_.cache.persist_bodies();
+  return bodies.count() != 0 && (bodies.has(pair.a) || bodies.has(pair.b));
+}
+
+// Begin, stay, persist or end, from a pair's states before and now.
 std::optional<ContactEvent> ContactEvents::event_of(const PairState& before,
                                                     const PairState& now) const {
   const bool was = before.touching, is = now.touching;
   const bool trigger = before.trigger || now.trigger;
-  if (!trigger && was == is) return {};
   const Pair pair = now.exists ? now.bodies : before.bodies;
+  if (!trigger && was == is && !(is && asks(pair))) return {};
   const bool is_told =
       has_contact_events(world_.bodies[pair.a]) && has_contact_events(world_.bodies[pair.b]);
   if (!trigger && !is_told) return {};
-  const EventKind kind = trigger ? (!is   ? EventKind::trigger_exit
-                                    : was ? EventKind::trigger_stay
-                                          : EventKind::trigger_enter)
-                                 : (is ? EventKind::contact_begin : EventKind::contact_end);
+  const EventKind kind = kind_of(trigger, was, is);
   const Velocity approach =
       kind == EventKind::contact_begin ? rounded<Velocity>(now.approach) : Velocity{};
   const bool ended = !now.exists;
@@ -119,7 +130,7 @@ template <class Emit>
 void ContactEvents::merge(std::span<const ContactRecord> before, std::span<const ContactRecord> now,
                           Emit&& emit) const {
   while (!before.empty() || !now.empty()) {
-    if (skip_unchanged(before, now)) continue;
+    if ((now.empty() || !asks(bodies_of(now.front()))) && skip_unchanged(before, now)) continue;
     const bool take_old =
         now.empty() || (!before.empty() && bodies_of(before.front()) <= bodies_of(now.front()));
     const bool take_new =

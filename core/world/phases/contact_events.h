@@ -20,7 +20,8 @@ class ContactEvents {
   /// No function but this allocates. Both outlive this.
   ContactEvents(WorldData& world, TickContacts& found);
 
-  /// Finds the contacts that began or ended, and makes those of the tick the contacts of the state.
+  /// Finds the contacts that began, ended or go on, and makes those of the tick the contacts of the
+  /// state.
   void find();
 
   /// Of the last step. Other phases add theirs behind.
@@ -34,6 +35,7 @@ class ContactEvents {
   PairState take_pair(std::span<const ContactRecord>& records, bool is_new) const;
   [[nodiscard]] std::optional<ContactEvent> event_of(const PairState& before,
                                                      const PairState& now) const;
+  [[nodiscard]] bool asks(const Pair& pair) const;
   template <class Emit>
   void merge(std::span<const ContactRecord> before, std::span<const ContactRecord> now,
              Emit&& emit) const;

@@ -125,7 +125,7 @@ bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
   }
   world_.broad_phase.remove(body);
   world_.triggers.erase(body);
-  world_.cache.forget_hit_events(body);
+  world_.cache.forget_events(body);
   return false;
 }
 
@@ -200,7 +200,7 @@ void StateLoader::rebuild_from(std::span<const ContactRecord> contacts) {
   world_.narrow.forget();
   world_.body_registry.rebuild();
   world_.triggers.clear();
-  world_.cache.forget_hit_events();
+  world_.cache.forget_events();
   world_.sleep_flags.rebuild();
   for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
     if (!world_.bodies[i].exists()) continue;

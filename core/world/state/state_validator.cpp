@@ -123,6 +123,8 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
     if (world_.sleep_flags.has_changed(i) != body.has_changed_sleep())
       return {"the list of changed sleep", i};
     if (world_.cache.hit_bodies().has(i) != has_hit_events(body))
+    if (world_.cache.persist_bodies().has(i) != has_persist_events(body))
+      return {"the list of bodies with persist events", i};
       return {"the list of bodies with hit events", i};
     if (world_.broad_phase.has(i) != (body.exists() && is_enabled(body)))
       return {"the bodies of the broad phase", i};

@@ -8,7 +8,7 @@ namespace {
 using namespace literals;
 
 struct Counts {
-  int begin = 0, end = 0, enter = 0, stay = 0, exit = 0;
+  int begin = 0, end = 0, persist = 0, enter = 0, stay = 0, exit = 0;
 };
 
 Counts step_and_count(World& world, int ticks) {
@@ -18,6 +18,7 @@ Counts step_and_count(World& world, int ticks) {
     for (const ContactEvent& event : world.events()) {
       counts.begin += event.kind == EventKind::contact_begin ? 1 : 0;
       counts.end += event.kind == EventKind::contact_end ? 1 : 0;
+      counts.persist += event.kind == EventKind::contact_persist ? 1 : 0;
       counts.enter += event.kind == EventKind::trigger_enter ? 1 : 0;
       counts.stay += event.kind == EventKind::trigger_stay ? 1 : 0;
       counts.exit += event.kind == EventKind::trigger_exit ? 1 : 0;
@@ -56,6 +57,64 @@ TEST(Events, ABallThatLeavesEndsItsContact) {
   const Counts counts = step_and_count(world, 20);
   EXPECT_EQ(counts.end, 1);
   EXPECT_EQ(counts.begin, 0);
+}
+
+TEST(Events, PersistInEveryTickOfAContactOfBodiesThatAsk) {
+  WorldDef world_def;
+  world_def.sleep_ms = 0;
+  World world = test::make_world(world_def);
+  test::add_ground(world);
+  BodyDef def = test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {});
+  def.material.tag = 4;
+  test::add(world, def);
+  def.position.x = 3_m;
+  def.events.persist = true;
+  const BodyHandle asking = test::add(world, def);
+  def.position.y = 1.5_m;
+  def.events = {.contacts = false, .persist = true};
+  test::add(world, def);  // upon the other, without contact events
+  EXPECT_EQ(step_and_count(world, 1).persist, 0);
+  // Until the island stands still, and then too.
+  for (int i = 0; i < 60; ++i) {
+    const Counts counts = step_and_count(world, 1);
+    EXPECT_EQ(counts.persist, 1);
+    EXPECT_EQ(counts.begin + counts.end, 0);
+    ASSERT_EQ(world.events().size(), 1U);
+    EXPECT_TRUE(world.events()[0].a == asking || world.events()[0].b == asking);
+    EXPECT_EQ(world.events()[0].tag_a + world.events()[0].tag_b, 4U);
+  }
+  ASSERT_EQ(world.apply(SetEvents{asking, {}}), Status::ok);
+  EXPECT_EQ(step_and_count(world, 60).persist, 0);
+}
+
+TEST(Events, PersistUntilTheContactEnds) {
+  World world = test::make_world();
+  test::add_ground(world);
+  BodyDef def = test::dynamic_body(Shape::sphere(0.5_m), {}, 0.5_m, {});
+  def.events.persist = true;
+  const BodyHandle ball = test::add(world, def);
+  const Counts rest = step_and_count(world, 10);
+  EXPECT_EQ(rest.begin, 1);
+  EXPECT_EQ(rest.persist, 9);
+  ASSERT_EQ(world.apply(SetVelocity{ball, {{}, 10_mps, {}}}), Status::ok);
+  const Counts flight = step_and_count(world, 20);
+  EXPECT_EQ(flight.end, 1);
+  EXPECT_LE(flight.persist, 1);  // it touches at the beginning of the first tick
+}
+
+TEST(Events, PersistNotWhileBothSleep) {
+  World world = test::make_world();
+  test::add_ground(world);
+  BodyDef def = test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {});
+  def.events.persist = true;
+  const BodyHandle box = test::add(world, def);
+  (void)step_and_count(world, 120);
+  ASSERT_TRUE(world.body(box).is_asleep);
+  EXPECT_EQ(step_and_count(world, 10).persist, 0);
+  ASSERT_EQ(world.apply(WakeBody{box}), Status::ok);
+  const Counts woken = step_and_count(world, 5);
+  EXPECT_EQ(woken.persist, 5);
+  EXPECT_EQ(woken.begin, 0);
 }
 
 TEST(Trigger, IsEnteredStayedInAndLeftAndPushesNothing) {

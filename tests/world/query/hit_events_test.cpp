@@ -1,5 +1,6 @@
 // Hits: impacts above a threshold, with place and impulses, by each of the ways in which a world
 // solves an impact.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -277,7 +278,7 @@ TEST(EventSettings, AreCheckedSavedAndForgottenWithTheBody) {
   def.events.hit_speed = SolverVelocity::from_integer(501);
   EXPECT_EQ(world.create_body(def).status(), Status::invalid_argument);
   EXPECT_EQ(world.explain(def).field, "body.events.hit_speed");
-  def.events = {false, SolverVelocity::from_integer(2)};
+  def.events = {false, SolverVelocity::from_integer(2), true};
   const BodyHandle body = test::add(world, def);
   const SetEvents wrong{body, {true, SolverVelocity::from_raw(-1)}};
   EXPECT_EQ(world.apply(wrong), Status::invalid_argument);
@@ -301,9 +302,9 @@ TEST(HitEvents, AreTheSameOnEveryPath) {
                                     .broad_phase = broad_phase});
     test::fill_with_random_bodies(world, 11, 60);
     for (std::uint32_t i = 0; i < world.body_limit(); i += 2)
-      EXPECT_EQ(
-          world.apply(SetEvents{world.body_at(i), {i % 4 != 0, SolverVelocity::from_ratio(1, 2)}}),
-          Status::ok);
+      EXPECT_EQ(world.apply(SetEvents{world.body_at(i),
+                                      {i % 4 != 0, SolverVelocity::from_ratio(1, 2), i % 6 == 0}}),
+                Status::ok);
     return world;
   };
   World plain = make(BroadPhaseKind::tree), sweeping = make(BroadPhaseKind::sweep_and_prune);
@@ -313,7 +314,7 @@ TEST(HitEvents, AreTheSameOnEveryPath) {
   ThreadPool pool(3);
   shared.set_task_runner(&pool, TaskPieces::smallest);
   std::vector<std::byte> start(rolled.snapshot_bytes_max(SnapshotKind::native));
-  std::size_t hits = 0;
+  std::size_t hits = 0, persisting = 0;
   for (int tick = 0; tick < test::share_of(240); ++tick) {
     const std::size_t size = rolled.save(SnapshotKind::native, start);
     (void)rolled.apply(ApplyImpulse{rolled.body_at(5), {{}, 900_Ns, {}}});
@@ -325,12 +326,15 @@ TEST(HitEvents, AreTheSameOnEveryPath) {
     for (World* world : {&plain, &sweeping, &dropping, &shared})
       (void)world->step();
     hits += hit_events(plain).size();
+    persisting += static_cast<std::size_t>(
+        std::ranges::count(plain.events(), EventKind::contact_persist, &ContactEvent::kind));
     for (const World* world : {&sweeping, &dropping, &shared, &rolled}) {
       ASSERT_EQ(test::told_by(plain), test::told_by(*world)) << "at tick " << tick;
       ASSERT_EQ(plain.hash().total, world->hash().total);
     }
   }
   EXPECT_GE(hits, static_cast<std::size_t>(test::share_of(21)));
+  EXPECT_GE(persisting, static_cast<std::size_t>(test::share_of(240)));
 }
 
 }  // namespace

@@ -92,6 +92,55 @@ TEST(PredictedEvents, ForgetFinalEventsAndCountThoseWithoutRoom) {
   EXPECT_TRUE(game.revoked.empty());
 }
 
+const EventName k_scrape{static_cast<std::uint32_t>(EventKind::contact_persist), 1, 2};
+
+TEST(PredictedEvents, TellALastingEventAsOne) {
+  Listener game;
+  EXPECT_EQ(game.tick(5, {k_scrape}), Ids{1});
+  EXPECT_EQ(game.tick(6, {k_scrape, k_thud}), (Ids{-1, 2}));
+  EXPECT_EQ(game.tick(7, {k_scrape}), Ids{-1});
+  EXPECT_EQ(game.tick(8, {}), Ids{});
+  EXPECT_EQ(game.tick(9, {k_scrape}), Ids{3});  // another one
+  EXPECT_TRUE(game.revoked.empty());
+}
+
+TEST(PredictedEvents, KeepALastingEventThatEndsSoonerOrLater) {
+  Listener game;
+  for (std::uint64_t tick = 5; tick <= 9; ++tick)
+    EXPECT_EQ(game.tick(tick, {k_scrape}), Ids{tick == 5 ? 1 : -1});
+  EXPECT_EQ(game.tick(7, {k_scrape}), Ids{-1});
+  for (std::uint64_t tick = 8; tick <= 12; ++tick)
+    EXPECT_EQ(game.tick(tick, {}), Ids{});  // it ended
+  EXPECT_TRUE(game.revoked.empty());
+  for (std::uint64_t tick = 8; tick <= 12; ++tick)
+    EXPECT_EQ(game.tick(tick, {k_scrape}), Ids{-1});  // and after all it did not
+  EXPECT_EQ(game.tick(4, {k_scrape}), Ids{-1});       // it began sooner
+  EXPECT_EQ(game.tick(5, {k_scrape}), Ids{-1});
+  EXPECT_TRUE(game.revoked.empty());
+}
+
+TEST(PredictedEvents, RevokeALastingEventThatNeverBegan) {
+  Listener game;
+  for (std::uint64_t tick = 5; tick <= 9; ++tick)
+    EXPECT_EQ(game.tick(tick, {k_scrape}), Ids{tick == 5 ? 1 : -1});
+  for (std::uint64_t tick = 5; tick <= 7; ++tick)
+    EXPECT_EQ(game.tick(tick, {}), Ids{});
+  EXPECT_EQ(game.revoked, Revoked{1});
+  EXPECT_EQ(game.tick(8, {k_scrape}), Ids{2});
+}
+
+TEST(PredictedEvents, LastOverConfirmedTicks) {
+  Listener game{PredictedEvents({.capacity = 1, .window_ticks = 2}), {}};
+  for (std::uint64_t tick = 1; tick <= 50; ++tick) {
+    EXPECT_EQ(game.tick(tick, {k_scrape}), Ids{tick == 1 ? 1 : -1});
+    game.events.confirm(tick);
+  }
+  EXPECT_EQ(game.tick(51, {}), Ids{});
+  game.events.confirm(51);
+  EXPECT_EQ(game.tick(52, {k_thud}), Ids{2});  // there is room again
+  EXPECT_EQ(game.events.dropped(), 0U);
+}
+
 // Steps ticks, goes back, and steps them again, mostly with the events that they had.
 class Timeline {
  public:

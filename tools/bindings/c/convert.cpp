@@ -45,8 +45,9 @@ AxisLocks locks_of(std::uint32_t bits, std::string_view field) {
 }
 
 EventSettings events_of(std::uint32_t bits, lks_speed hit_speed, std::string_view field) {
-  check_bits(bits, LKS_BODY_CONTACT_EVENTS, field);
-  return {(bits & LKS_BODY_CONTACT_EVENTS) != 0, SolverVelocity::from_raw(hit_speed)};
+  check_bits(bits, LKS_BODY_CONTACT_EVENTS | LKS_BODY_PERSIST_EVENTS, field);
+  return {(bits & LKS_BODY_CONTACT_EVENTS) != 0, SolverVelocity::from_raw(hit_speed),
+          (bits & LKS_BODY_PERSIST_EVENTS) != 0};
 }
 
 Frame frame_of(std::uint32_t frame) {
@@ -77,7 +78,10 @@ std::uint32_t raw_of(const AxisLocks& locks) {
 }
 
 std::uint32_t raw_of(const EventSettings& events) {
-  return events.contacts ? LKS_BODY_CONTACT_EVENTS : 0;
+  std::uint32_t bits = 0;
+  if (events.contacts) bits |= LKS_BODY_CONTACT_EVENTS;
+  if (events.persist) bits |= LKS_BODY_PERSIST_EVENTS;
+  return bits;
 }
 
 Vec3<Position> place_of(const lks_position3* place, std::string_view field) {

@@ -11,7 +11,7 @@ namespace {
 using namespace lockstone;
 using namespace lockstone::c;
 
-static_assert(LKS_WAKE == static_cast<int>(EventKind::wake));
+static_assert(LKS_CONTACT_PERSIST == static_cast<int>(EventKind::contact_persist));
 
 lks_event event_of(const ContactEvent& event) {
   return {static_cast<std::uint32_t>(event.kind),

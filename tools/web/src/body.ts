@@ -95,6 +95,8 @@ export interface BodyDef {
   userData?: bigint;
   /** true: contacts of the body are events. */
   contactEvents?: boolean;
+  /** true: a contact of the body that goes on is an event in every tick. */
+  persistEvents?: boolean;
   /** m/s: approaches above it are hits; 0: none are. */
   hitSpeed?: Quantity;
 }
@@ -148,12 +150,16 @@ function putPose(heap: Heap, at: number, position: Vector, orientation: Rotation
   heap.putRotation(at + c.lks_pose.orientation, orientation);
 }
 
+function eventBits(contacts: boolean, persist: boolean): number {
+  return (contacts ? c.LKS_BODY_CONTACT_EVENTS : 0) | (persist ? c.LKS_BODY_PERSIST_EVENTS : 0);
+}
+
 function putFlags(heap: Heap, at: number, from: BodyDef): void {
   const flags = (from.trigger ? c.LKS_BODY_TRIGGER : 0) | (from.fixedRotation ? c.LKS_BODY_FIXED_ROTATION : 0) |
     (from.bullet ? c.LKS_BODY_BULLET : 0) | (from.allowSleep === false ? 0 : c.LKS_BODY_ALLOW_SLEEP);
   heap.putWord(at + def.flags, flags);
   if (from.locks !== undefined) heap.putWord(at + def.locks, from.locks);
-  if (from.contactEvents !== undefined) heap.putWord(at + def.events, from.contactEvents ? c.LKS_BODY_CONTACT_EVENTS : 0);
+  heap.putWord(at + def.events, eventBits(from.contactEvents ?? true, from.persistEvents ?? false));
   if (from.userData !== undefined) heap.i64[(at + def.user_data) >>> 3] = from.userData;
 }
 
@@ -374,11 +380,12 @@ export class Body {
     });
   }
 
-  /** Whether contacts of the body are events, and above which approach speed (m/s) they are hits. Changes no motion. */
-  setEvents(contacts: boolean, hitSpeed: Quantity = 0): void {
+  /** Whether contacts of the body are events, above which approach speed (m/s) they are hits, and whether those that go on are
+   *  events in every tick. Changes no motion. */
+  setEvents(contacts: boolean, hitSpeed: Quantity = 0, persist = false): void {
     this.order((f, world, at, heap) => {
       heap.put32(at, hitSpeed, c.LKS_SPEED_BITS);
-      return f.lks_set_events(world, this.id, Number(contacts), heap.i32[at >>> 2]!);
+      return f.lks_set_events(world, this.id, eventBits(contacts, persist), heap.i32[at >>> 2]!);
     });
   }
 

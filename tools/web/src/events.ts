@@ -14,6 +14,8 @@ export const EventKind = {
   impact: c.LKS_IMPACT,
   sleep: c.LKS_SLEEP,
   wake: c.LKS_WAKE,
+  /** The two touch, as a tick ago; of bodies that ask for it (`persistEvents`). */
+  contactPersist: c.LKS_CONTACT_PERSIST,
 } as const;
 
 export interface WorldEvent {

@@ -37,7 +37,10 @@ enum {
 };
 
 /* Bits of events: which events a body has. */
-enum { LKS_BODY_CONTACT_EVENTS = 1 /* set by default */ };
+enum {
+  LKS_BODY_CONTACT_EVENTS = 1, /* set by default */
+  LKS_BODY_PERSIST_EVENTS = 2  /* LKS_CONTACT_PERSIST in every tick of a contact */
+};
 
 /* Bits of locks: world axes that a dynamic body does not move along, or turn about. */
 enum {

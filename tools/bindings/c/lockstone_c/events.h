@@ -16,7 +16,8 @@ enum {
   LKS_TRIGGER_EXIT = 4,
   LKS_IMPACT = 5, /* `a` was stopped on its way by `b` within the tick */
   LKS_SLEEP = 6,  /* `a` fell asleep; `b` is 0 */
-  LKS_WAKE = 7
+  LKS_WAKE = 7,
+  LKS_CONTACT_PERSIST = 8 /* they touch, as a tick ago: LKS_BODY_PERSIST_EVENTS */
 };
 
 typedef struct lks_event {

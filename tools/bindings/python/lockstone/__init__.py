@@ -14,10 +14,10 @@ from .sessions import Client, Network, Server, SessionEvent, Transport, now_us, 
 from .shapes import (Assets, box, capsule, cone, cylinder, half_space, rounded_box, sphere,
                      tapered_capsule)
 from .units import Raw
-from .world import (ALLOW_SLEEP, BALL, BULLET, CONTACT_BEGIN, CONTACT_END, DISTANCE, DYNAMIC, FIXED_ROTATION, GEAR,
-                    HINGE, IMPACT, KINEMATIC, MOTOR, PATH, PULLEY, RACK, RATCHET, SIX_AXIS, SLEEP, SLIDER, STATIC, TRIGGER,
-                    TRIGGER_ENTER, TRIGGER_EXIT, TRIGGER_STAY, WAKE, WELD, WHEEL, Body, Contact, Impact, Poses,
-                    RayHit, World)
+from .world import (ALLOW_SLEEP, BALL, BULLET, CONTACT_BEGIN, CONTACT_END, CONTACT_PERSIST, DISTANCE, DYNAMIC,
+                    FIXED_ROTATION, GEAR, HINGE, IMPACT, KINEMATIC, MOTOR, PATH, PULLEY, RACK, RATCHET, SIX_AXIS,
+                    SLEEP, SLIDER, STATIC, TRIGGER, TRIGGER_ENTER, TRIGGER_EXIT, TRIGGER_STAY, WAKE, WELD, WHEEL, Body,
+                    Contact, Impact, Poses, RayHit, World)
 
 __version__ = lib.lks_version().decode()
 simulation_abi: int = lib.lks_simulation_abi()

@@ -16,7 +16,8 @@ from .units import Quantity, Rotation, Vector
 
 STATIC, KINEMATIC, DYNAMIC = 1, 2, 3
 (DISTANCE, BALL, HINGE, SLIDER, WELD, WHEEL, MOTOR, SIX_AXIS, PULLEY, GEAR, RACK, RATCHET, PATH) = range(1, 14)
-(CONTACT_BEGIN, CONTACT_END, TRIGGER_ENTER, TRIGGER_STAY, TRIGGER_EXIT, IMPACT, SLEEP, WAKE) = range(8)
+(CONTACT_BEGIN, CONTACT_END, TRIGGER_ENTER, TRIGGER_STAY, TRIGGER_EXIT, IMPACT, SLEEP, WAKE,
+ CONTACT_PERSIST) = range(9)
 TRIGGER, FIXED_ROTATION, BULLET, ALLOW_SLEEP = 1, 2, 4, 8
 
 Exact = Tuple[Fraction, Fraction, Fraction]
@@ -182,8 +183,8 @@ class Body:
     def set_filter(self, category: int = 1, mask: int = 0xffffffff, group: int = 0) -> None:
         self._call("lks_set_filter", byref(Filter(category, mask, group)))
 
-    def set_events(self, *, contacts: bool = True, hit_speed: Quantity = 0) -> None:
-        self._call("lks_set_events", int(contacts), units.raw(hit_speed, units.SPEED, 32))
+    def set_events(self, *, contacts: bool = True, hit_speed: Quantity = 0, persist: bool = False) -> None:
+        self._call("lks_set_events", int(contacts) | int(persist) << 1, units.raw(hit_speed, units.SPEED, 32))
 
     def set_one_way(self, direction: Vector, tolerance: int = 60) -> None:
         """A static or kinematic body stops others from the side of the direction only, in the axes of its shape."""

@@ -1035,6 +1035,7 @@ namespace Lockstone.Interop
         public const uint LKS_BODY_ASLEEP = 16;
         public const uint LKS_BODY_DISABLED = 32;
         public const uint LKS_BODY_CONTACT_EVENTS = 1;
+        public const uint LKS_BODY_PERSIST_EVENTS = 2;
         public const uint LKS_LOCK_MOVE_X = 1;
         public const uint LKS_LOCK_MOVE_Y = 2;
         public const uint LKS_LOCK_MOVE_Z = 4;
@@ -1057,6 +1058,7 @@ namespace Lockstone.Interop
         public const uint LKS_IMPACT = 5;
         public const uint LKS_SLEEP = 6;
         public const uint LKS_WAKE = 7;
+        public const uint LKS_CONTACT_PERSIST = 8;
         public const uint LKS_INPUT_RECEIVED = 0;
         public const uint LKS_INPUT_REPEATED = 1;
         public const uint LKS_INPUT_NEUTRAL = 2;
