@@ -73,6 +73,7 @@ extern const Scene k_race;                                               // race
 extern const Scene k_motorcycle, k_tank;                                 // riders.cpp
 extern const Scene k_ragdoll_drive;                                      // ragdolls.cpp
 extern const Scene k_trapdoors;                                          // trapdoors.cpp
+extern const Scene k_moving_deck;                                        // deck.cpp
 extern const Scene k_coaster, k_ratchets;                                // rails.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp

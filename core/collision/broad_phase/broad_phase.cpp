@@ -196,7 +196,7 @@ bool BroadPhase::search(Emit&& emit) {
     const ProxyTraits& traits = proxies_[one].traits;
     const ProxyTraits& others = proxies_[other].traits;
     if (!can_meet(traits, others)) return true;
-    const bool in_order = traits.moves && (!others.moves || one < other);
+    const bool in_order = leads(traits) == leads(others) ? one < other : leads(traits);
     return emit(in_order ? Pair{one, other} : Pair{other, one});
   };
   const auto run = [&](auto& search) {

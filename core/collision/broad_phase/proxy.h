@@ -14,10 +14,17 @@ struct ProxyTraits {
   bool moves = false;       ///< kinematic or dynamic
   bool is_dynamic = false;  ///< can be pushed
   bool is_trigger = false;
-  bool is_asleep = false;  ///< counts as standing, but stays in the list of moving bodies
+  bool is_asleep = false;   ///< counts as standing, but stays in the list of moving bodies
+  bool is_surface = false;  ///< of triangles
 
   friend constexpr bool operator==(const ProxyTraits&, const ProxyTraits&) = default;
 };
+
+/// Whether the body comes first in pairs with those of which this is false; else the lower index
+/// does. Contacts have triangles on their second side.
+[[nodiscard]] constexpr bool leads(const ProxyTraits& body) {
+  return body.moves && !body.is_surface;
+}
 
 /// Whether two bodies make a pair once their bounds overlap: one is awake, and one can be pushed or
 /// senses the other.

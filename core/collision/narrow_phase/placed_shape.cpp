@@ -6,6 +6,7 @@
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/geometry/convex/solid.h"
+#include "core/math/roots.h"
 
 namespace lockstone {
 namespace {
@@ -110,8 +111,12 @@ WorldBox world_box(const PlacedShape& placed) {
 
 Length bounding_radius(const Shape& shape, const geometry::AssetGeometry* asset) {
   if (is_primitive(shape.kind)) return bounding_radius(shape);
-  const geometry::Solid* solid = solid_of(asset);
-  return solid == nullptr ? Length{} : solid->radius;
+  if (asset == nullptr) return {};
+  if (asset->solid() != nullptr) return asset->solid()->radius;
+  const geometry::LocalBounds& bounds = asset->bounds();
+  const auto farthest = [&](int i) { return max(abs(bounds.lower[i]), abs(bounds.upper[i])).raw; };
+  return Length::from_raw(raw::saturate<std::int32_t>(
+      static_cast<std::int64_t>(norm(farthest(0), farthest(1), farthest(2))) + 1));
 }
 
 Length inner_radius(const Shape& shape, const geometry::AssetGeometry* asset) {

@@ -20,7 +20,7 @@ inline constexpr int k_max_compound_children = 256;
 inline constexpr std::uint32_t k_first_compound_triangle = k_max_compound_children;
 
 /// One of the shapes. Where children overlap, the shared volume counts twice in the mass. A mesh
-/// has no mass, and a compound that has one is for static bodies alone.
+/// has no mass, and a compound that has one is for static and kinematic bodies alone.
 struct CompoundChild {
   Shape shape = Shape::sphere(Length::from_ratio(1, 2));  ///< primitive, hull or mesh
   AssetPtr asset{};         ///< the hull or mesh that `shape` names; null for the others

@@ -1,4 +1,4 @@
-// Triangle meshes: static surfaces of up to a million triangles.
+// Triangle meshes: surfaces of up to a million triangles, for static and kinematic bodies.
 #pragma once
 
 #include <cstdint>

@@ -39,9 +39,20 @@ void rescale_speed_limit(BodyRecord& record, int scale_exponent) {
 
 }  // namespace
 
+// The body with another motion. Triangles have another scale where they move.
+BodyRecord with_motion(const World::Impl& world, std::uint32_t body, MotionType motion) {
+  BodyRecord record = world.bodies[body];
+  record.motion = static_cast<std::uint8_t>(motion);
+  const geometry::AssetGeometry* asset = world.cache.asset(body);
+  record.scale_exponent =
+      static_cast<std::int8_t>(properties_of(record.shape(), asset, motion).scale_exponent);
+  return record;
+}
+
 // Whether the body may become `changed`, which has another type of motion.
 bool can_become(const World::Impl& world, std::uint32_t body, const BodyRecord& changed) {
-  if (changed.moves() && !has_solid(changed.shape(), world.cache.asset(body))) return false;
+  if (!may_have(static_cast<MotionType>(changed.motion), changed.shape(), world.cache.asset(body)))
+    return false;
   return world.joint_registry.hold_dynamic(body, changed) &&
          world.joint_registry.fits(body, changed);
 }
@@ -65,7 +76,7 @@ BodyRecord reshaped(const World::Impl& world, const SetShape& command,
   record.shape_kind = static_cast<std::uint8_t>(command.shape.kind);
   record.size = command.shape.size;
   record.asset = command.shape.asset;
-  set_solid(record, properties_of(command.shape, asset));
+  set_solid(record, properties_of(command.shape, asset, static_cast<MotionType>(record.motion)));
   if (record.is_dynamic() && command.mass != Mass{}) set_mass_data(record, {command.mass, {}});
   return record;
 }
@@ -74,7 +85,7 @@ bool can_take_shape(const World::Impl& world, const SetShape& command,
                     const geometry::AssetGeometry* asset) {
   const std::uint32_t body = command.body.index;
   const BodyRecord& record = world.bodies[body];
-  if (record.moves() && !has_solid(command.shape, asset)) return false;
+  if (!may_have(static_cast<MotionType>(record.motion), command.shape, asset)) return false;
   if (record.is_dynamic() && command.mass != Mass{} && !is_body_mass(command.mass)) return false;
   const BodyRecord changed = reshaped(world, command, asset);
   return is_within(changed.position, k_world_limit) &&
@@ -108,23 +119,25 @@ Status CommandExecutor::execute(const SetMotionType& command) {
   if (record == nullptr) return Status::stale_handle;
   if (command.motion < MotionType::static_body || command.motion > MotionType::dynamic)
     return Status::invalid_argument;
-  BodyRecord changed = *record;
-  changed.motion = static_cast<std::uint8_t>(command.motion);
-  if (changed == *record) return Status::ok;
+  const BodyRecord changed = with_motion(world_, body, command.motion);
+  if (changed.motion == record->motion) return Status::ok;
   if (!can_become(world_, body, changed)) return Status::invalid_argument;
-  const Mass mass = mass_as_dynamic(world_, command);
+  const Mass mass = changed.is_dynamic() ? mass_as_dynamic(world_, command) : Mass{};
   if (changed.is_dynamic() && !is_body_mass(mass)) return Status::invalid_argument;
   world_.waking.disturb(body);
   world_.body_registry.leave(body);
   const bool swaps_union = record->is_dynamic() || changed.is_dynamic();
   const Vec3<Velocity> turning =
       surface_velocity(inverse_inertia(*record, world_.cache.rotation(body)), record->spin);
+  const int old_exponent = record->scale_exponent;
   record->motion = changed.motion;
+  record->scale_exponent = changed.scale_exponent;
+  rescale_speed_limit(*record, old_exponent);
   record->inverse_mass = record->inverse_mass_exponent = 0;
   if (record->is_dynamic()) set_mass_data(*record, {mass, {}});
   if (swaps_union) record->set_rest({}, Quat{{}, {}, {}, {}});
   if (!record->moves()) record->velocity = {};
-  set_turning(*record, world_.cache.rotation(body), turning, record->scale_exponent);
+  set_turning(*record, world_.cache.rotation(body), turning, old_exponent);
   world_.joint_registry.rebuild();
   world_.body_registry.enter(body);
   return Status::ok;
@@ -162,6 +175,8 @@ void CommandExecutor::change_shape(const SetShape& command, const geometry::Asse
   world_.joint_registry.move_frames(body, body_pose(old_asset, {}), body_pose(asset, {}));
   world_.joint_registry.forget_impulses_of(body);
   world_.contacts.forget_manifolds();
+  if (is_surface(old, old_asset) != is_surface(record, asset))
+    world_.body_registry.drop_contacts_of(body);
   world_.cache.set_asset(body, asset);
   if (forget_terrain_of(world_, body)) refresh_terrain(world_);
   set_recycling_pose(record);

@@ -29,9 +29,6 @@ namespace lockstone {
 /// The asset that a shape names; null without error for a shape that names none.
 [[nodiscard]] Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets);
 
-/// Whether a body of this shape has a mass distribution, and so can move.
-[[nodiscard]] bool has_solid(const Shape& shape, const geometry::AssetGeometry* asset);
-
 /// The mass of a solid, kg: the asset's or the primitive shape's volume times the density.
 [[nodiscard]] Mass mass_of(const Shape& shape, const geometry::AssetGeometry* asset,
                            Density density);

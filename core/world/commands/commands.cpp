@@ -31,10 +31,10 @@ bool is_valid(const BodyDef& def) {
          is_hit_speed(def.events.hit_speed);
 }
 
-// A shape without volume cannot be dynamic, and only a body with a centre of mass can move. Lighter
-// or heavier bodies would leave the formats of the solver.
+// A shape without volume cannot be dynamic, and only triangles without one can be kinematic.
+// Lighter or heavier bodies would leave the formats of the solver.
 bool has_valid_mass(const BodyDef& def, const geometry::AssetGeometry* asset) {
-  if (!has_solid(def.shape, asset)) return def.motion == MotionType::static_body;
+  if (!may_have(def.motion, def.shape, asset)) return false;
   return def.motion != MotionType::dynamic ||
          has_valid_mass_data({mass_of(def, asset), def.mass.inertia},
                              properties_of(def.shape, asset).scale_exponent);
@@ -65,7 +65,7 @@ BodyRecord make_record(const BodyDef& def, const geometry::AssetGeometry* asset,
                                            (def.allow_sleep ? 0 : k_body_no_sleep));
   record.locks =
       static_cast<std::uint8_t>(locks_of(def.locks) | (def.fixed_rotation ? k_lock_turning : 0));
-  set_solid(record, properties_of(def.shape, asset));
+  set_solid(record, properties_of(def.shape, asset, def.motion));
   if (record.is_dynamic()) set_mass_data(record, {mass_of(def, asset), def.mass.inertia});
   set_speed_limit(record, def.speed_limit);
   set_events(record, def.events);
@@ -87,10 +87,6 @@ Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets) {
   return asset;
 }
 
-bool has_solid(const Shape& shape, const geometry::AssetGeometry* asset) {
-  return asset != nullptr ? asset->solid() != nullptr : is_primitive(shape.kind);
-}
-
 Mass mass_of(const Shape& shape, const geometry::AssetGeometry* asset, Density density) {
   if (asset == nullptr) return mass_of(shape, density);
   return multiply_saturating<Mass>(density, asset->solid()->volume);
@@ -109,7 +105,8 @@ Result<BodyHandle> BodyRegistry::create(const BodyDef& body_def) {
   Vec3<Velocity> surface;
   if (!has_valid_mass(body_def, asset) || !has_centre_in_world(body_def, asset) ||
       !to_surface_velocity(body_def.angular_velocity,
-                           properties_of(body_def.shape, asset).scale_exponent, surface)) {
+                           properties_of(body_def.shape, asset, body_def.motion).scale_exponent,
+                           surface)) {
     return Status::invalid_argument;
   }
   std::uint32_t slot = free_hint_;

@@ -78,8 +78,10 @@ namespace {
 
 void check_mass(RefusalFinder& find, const BodyDef& def, const geometry::AssetGeometry* asset) {
   if (!has_solid(def.shape, asset)) {
-    find.require(def.motion == MotionType::static_body, "motion", to_string(def.motion),
-                 joined({"static for a ", to_string(def.shape.kind), " without volume"}));
+    const bool may_move = may_have(MotionType::kinematic, def.shape, asset);
+    find.require(may_have(def.motion, def.shape, asset), "motion", to_string(def.motion),
+                 joined({may_move ? "static or kinematic" : "static", " for a ",
+                         to_string(def.shape.kind), " without volume"}));
     return;
   }
   if (def.motion != MotionType::dynamic) return;
@@ -277,7 +279,8 @@ Refusal World::explain(const BodyDef& def) const {
   check_mass(find, def, asset);
   find.within("position (of the centre of mass)",
               body_pose(asset, {def.position, def.orientation}).position, k_world_limit, "m");
-  check_turning(find, def.angular_velocity, properties_of(def.shape, asset).scale_exponent);
+  check_turning(find, def.angular_velocity,
+                properties_of(def.shape, asset, def.motion).scale_exponent);
   const std::uint32_t capacity = impl_->def.body_capacity;
   find.require(body_count() < capacity, "count", std::to_string(body_count()),
                joined({"below WorldDef::body_capacity, ", std::to_string(capacity)}));

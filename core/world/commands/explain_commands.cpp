@@ -301,9 +301,8 @@ class CommandExplainer::Nature {
     const BodyRecord* record = on_.body(c.body);
     on_.find.known("motion", c.motion, MotionType::static_body, MotionType::dynamic);
     if (on_.find.done()) return;
-    BodyRecord changed = *record;
-    changed.motion = static_cast<std::uint8_t>(c.motion);
-    if (changed == *record) return;
+    if (c.motion == static_cast<MotionType>(record->motion)) return;
+    const BodyRecord changed = with_motion(on_.impl, c.body.index, c.motion);
     on_.find.require(can_become(on_.impl, c.body.index, changed), "motion", to_string(c.motion),
                      "one for which the shape has a volume, each joint has a dynamic body, and "
                      "joints are near enough");

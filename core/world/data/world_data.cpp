@@ -141,12 +141,13 @@ void WorldData::refresh_bounds(std::uint32_t body) {
   if (!is_enabled(record)) return broad_phase.remove(body);
   broad_phase.set(body, bounds_of(body),
                   {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
-                   record.is_asleep()});
+                   record.is_asleep(), is_surface(record, cache.asset(body))});
 }
 
 Pair WorldData::pair_of(std::uint32_t a, std::uint32_t b) const {
-  const bool a_moves = bodies[a].moves(), b_moves = bodies[b].moves();
-  const bool swap = a_moves == b_moves ? a > b : b_moves;
+  const bool a_leads = leads(bodies[a], cache.asset(a));
+  const bool b_leads = leads(bodies[b], cache.asset(b));
+  const bool swap = a_leads == b_leads ? a > b : b_leads;
   return swap ? Pair{b, a} : Pair{a, b};
 }
 

@@ -1,7 +1,9 @@
 #include "core/world/derived/quantities.h"
 
 #include <algorithm>
+#include <bit>
 
+#include "core/collision/narrow_phase/placed_shape.h"
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/state/limits.h"
 #include "core/geometry/convex/shape_properties.h"
@@ -86,6 +88,29 @@ ShapeProperties properties_of(const Shape& shape, const geometry::AssetGeometry*
     return {bounded(inertia), solid.scale_exponent, solid.radius};
   }
   return {bounded({}), k_largest_scale_exponent, {}};
+}
+
+bool has_solid(const Shape& shape, const geometry::AssetGeometry* asset) {
+  return asset != nullptr ? asset->solid() != nullptr : is_primitive(shape.kind);
+}
+
+ShapeProperties properties_of(const Shape& shape, const geometry::AssetGeometry* asset,
+                              MotionType motion) {
+  constexpr Length k_least = Length::from_ratio(1, 1024);
+  ShapeProperties properties = properties_of(shape, asset);
+  if (motion != MotionType::kinematic || has_solid(shape, asset)) return properties;
+  properties.radius = max(bounding_radius(shape, asset), k_least);
+  const auto radius = static_cast<std::uint32_t>(properties.radius.raw);
+  properties.scale_exponent = static_cast<int>(std::bit_width(radius - 1)) - Length::frac_bits;
+  return properties;
+}
+
+bool may_have(MotionType motion, const Shape& shape, const geometry::AssetGeometry* asset) {
+  if (motion == MotionType::static_body || has_solid(shape, asset)) return true;
+  constexpr Length k_most = Length::from_integer(1 << k_largest_scale_exponent);
+  return motion == MotionType::kinematic && asset != nullptr &&
+         shape.kind != ShapeKind::height_field && asset->mesh_kernels() != nullptr &&
+         bounding_radius(shape, asset) <= k_most;
 }
 
 }  // namespace lockstone

@@ -52,4 +52,28 @@ struct ShapeProperties {
 [[nodiscard]] ShapeProperties properties_of(const Shape& shape,
                                             const geometry::AssetGeometry* asset);
 
+/// Whether a body of this shape has a mass distribution.
+[[nodiscard]] bool has_solid(const Shape& shape, const geometry::AssetGeometry* asset);
+
+/// The same of a body: of a kinematic one of triangles its scale and radius follow from its bounds.
+[[nodiscard]] ShapeProperties properties_of(const Shape& shape,
+                                            const geometry::AssetGeometry* asset,
+                                            MotionType motion);
+
+/// Whether the body is made of triangles, without a solid, and may move: a kinematic mesh.
+[[nodiscard]] inline bool is_surface(const BodyRecord& body, const geometry::AssetGeometry* asset) {
+  return body.moves() && asset != nullptr && asset->solid() == nullptr;
+}
+
+/// Whether the body comes first in pairs with those of which this is false; else the lower index
+/// does.
+[[nodiscard]] inline bool leads(const BodyRecord& body, const geometry::AssetGeometry* asset) {
+  return body.moves() && !is_surface(body, asset);
+}
+
+/// Whether a body of this motion may have the shape: a dynamic one needs a solid, a kinematic one a
+/// solid, or a mesh that reaches no farther than 1024 m from its origin.
+[[nodiscard]] bool may_have(MotionType motion, const Shape& shape,
+                            const geometry::AssetGeometry* asset);
+
 }  // namespace lockstone

@@ -26,9 +26,9 @@ namespace lockstone {
 [[nodiscard]] bool is_valid_tile(const geometry::AssetGeometry& terrain,
                                  const TerrainTileRecord& tile);
 
-/// The same with the bodies that a contact is between, or that a joint holds.
-[[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a,
-                              const BodyRecord& b);
+/// The same with the bodies, themselves valid, that a contact is between, or that a joint holds.
+[[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b,
+                              const AssetSet& assets);
 [[nodiscard]] Status validate(const JointRecord& record, const BodyRecord& a, const BodyRecord& b);
 
 /// Whether a joint may hold the two, and whether a body's joints may sit there.

@@ -69,9 +69,8 @@ bool has_valid_notes(const BodyRecord& record) {
 bool has_known_shape(const BodyRecord& record, const Asset* asset) {
   const ShapeKind kind = record.shape().kind;
   if (is_asset(kind) && (asset == nullptr || asset->kind() != kind)) return false;
-  const bool has_solid =
-      is_primitive(kind) || (asset != nullptr && asset->geometry().solid() != nullptr);
-  return has_solid || record.is_static();
+  return may_have(static_cast<MotionType>(record.motion), record.shape(),
+                  geometry::geometry_of(asset));
 }
 
 bool has_zero_rest(const BodyRecord& record) {
@@ -130,7 +129,9 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
     return Status::malformed;
   const Asset* asset = assets.find(record.shape().asset_id());
   if (!has_known_shape(record, asset)) return Status::malformed;
-  const int scale = properties_of(record.shape(), geometry::geometry_of(asset)).scale_exponent;
+  const int scale = properties_of(record.shape(), geometry::geometry_of(asset),
+                                  static_cast<MotionType>(record.motion))
+                        .scale_exponent;
   const bool consistent = record.scale_exponent == scale && has_valid_inertia(record.inertia) &&
                           has_valid_mass(record) && has_valid_surface(record) &&
                           has_valid_sleep(record) && has_valid_limits(record) &&
@@ -190,8 +191,16 @@ bool is_valid_tile(const geometry::AssetGeometry& terrain, const TerrainTileReco
   return editing->is_tile(field, tile) && tile != editing->original(field, tile.key());
 }
 
-Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b) {
-  const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
+Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b,
+                const AssetSet& assets) {
+  const auto comes_first = [&](const BodyRecord& body) {
+    const bool has_asset = body.moves() && is_asset(body.shape().kind);
+    const Asset* asset = has_asset ? assets.find(body.shape().asset) : nullptr;
+    return leads(body, geometry::geometry_of(asset));
+  };
+  const bool a_first = comes_first(a), b_first = comes_first(b);
+  const bool ordered = a.exists() && b.exists() && (a.moves() || b.moves()) &&
+                       (a_first == b_first ? record.body_a < record.body_b : a_first);
   const bool known = (record.flags & ~k_all_contact_flags) == 0;
   const bool trigger = a.is_trigger() || b.is_trigger();
   const bool passes = record.is_passing() && !trigger && !record.is_touching();
@@ -213,7 +222,7 @@ Status SnapshotView::check(ContactStore) const {
     if (record.body_a >= header.body_limit || record.body_b >= header.body_limit) {
       return Status::malformed;
     }
-    if (validate(record, body(record.body_a), body(record.body_b)) != Status::ok)
+    if (validate(record, body(record.body_a), body(record.body_b), *assets_) != Status::ok)
       return Status::malformed;
     if (i == 0) continue;
     const ContactRecord last = contact(i - 1);

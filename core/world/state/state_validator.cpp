@@ -53,7 +53,8 @@ WorldFault StateValidator::fault_of_contacts(std::span<const ContactRecord> reco
     const ContactRecord& record = records[i];
     if (record.body_a >= world_.header.body_limit || record.body_b >= world_.header.body_limit)
       return {"a contact of no body", i};
-    if (validate(record, world_.bodies[record.body_a], world_.bodies[record.body_b]) != Status::ok)
+    if (validate(record, world_.bodies[record.body_a], world_.bodies[record.body_b],
+                 *world_.assets) != Status::ok)
       return {"a contact's record", i};
     if (i > 0 && records[i - 1].key() >= record.key()) return {"the order of contacts", i};
   }
@@ -122,9 +123,9 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
     awake_count += world_.awake.has(i) ? 1U : 0U;
     if (world_.sleep_flags.has_changed(i) != body.has_changed_sleep())
       return {"the list of changed sleep", i};
-    if (world_.cache.hit_bodies().has(i) != has_hit_events(body))
     if (world_.cache.persist_bodies().has(i) != has_persist_events(body))
       return {"the list of bodies with persist events", i};
+    if (world_.cache.hit_bodies().has(i) != has_hit_events(body))
       return {"the list of bodies with hit events", i};
     if (world_.broad_phase.has(i) != (body.exists() && is_enabled(body)))
       return {"the bodies of the broad phase", i};

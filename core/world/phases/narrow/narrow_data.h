@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/world/data/world_data.h"
+#include "core/world/derived/quantities.h"
 #include "core/world/phases/narrow/manifold_ids.h"
 #include "core/world/phases/narrow/separating_axes.h"
 #include "core/world/phases/step_records.h"
@@ -46,6 +47,11 @@ struct NarrowData {
 /// elsewhere at once, and are soon collided.
 [[nodiscard]] inline bool is_found_at_recycling_poses(const WorldData& world, const Pair& pair) {
   return has_faces(world.bodies[pair.a]) && has_faces(world.bodies[pair.b]);
+}
+
+/// Whether contacts with the body may lie on seams: it stands, or is a mesh that moves as one.
+[[nodiscard]] inline bool has_seams(const WorldData& world, std::uint32_t body) {
+  return !world.bodies[body].moves() || is_surface(world.bodies[body], world.cache.asset(body));
 }
 
 /// Whether the body has one part, 0: no compound and no mesh.

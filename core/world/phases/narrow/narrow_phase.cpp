@@ -166,7 +166,7 @@ void NarrowPhase::collide_piece(std::uint32_t first, std::uint32_t end, PairScra
 bool NarrowPhase::look_for_seam(std::uint32_t pair, bool beside_static) {
   const Pair& both = data_.pairs[pair];
   const bool goes_on = beside_static && pair > 0 && data_.pairs[pair - 1].a == both.a;
-  if (data_.world.bodies[both.b].moves()) return goes_on;
+  if (!has_seams(data_.world, both.b)) return goes_on;
   if (goes_on || !has_one_piece(data_.world, both.b)) data_.ids.note_seams();
   return true;
 }

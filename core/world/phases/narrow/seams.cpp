@@ -104,7 +104,8 @@ void SeamSearch::run() {
 
 bool SeamSearch::is_static(std::uint32_t pair) const {
   const BodyRecord& other = world_.bodies[data_.pairs[pair].b];
-  return !other.moves() && !other.is_trigger() && !world_.bodies[body_].is_trigger();
+  return has_seams(world_, data_.pairs[pair].b) && !other.is_trigger() &&
+         !world_.bodies[body_].is_trigger();
 }
 
 bool SeamSearch::is_passing(std::uint32_t pair) const {
