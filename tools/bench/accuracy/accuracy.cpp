@@ -50,6 +50,7 @@ constexpr auto k_rows = std::to_array<AccuracyRow>({
     {41, "figures driven by poses", 1, measure_figures},
     {42, "ball of 10 kg on a drag", 1, measure_drags},
     {43, "bead on a circle; ratchet", 1, measure_paths},
+    {44, "ball that falls through air, plate in the wind", 1, measure_air},
     {101, "baseline: three Euler methods, 10 min", 1, measure_integrators},
     {102, "baseline: stack of 20 on springs", 1, measure_penalty},
 });

@@ -87,6 +87,7 @@ struct AccuracyRow {
 [[nodiscard]] std::vector<AccuracyResult> measure_figures(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_drags(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_paths(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_air(const AccuracyOptions& options);
 
 // Results of other methods; tools/bench/baselines.
 [[nodiscard]] std::vector<AccuracyResult> measure_integrators(const AccuracyOptions& options);
