@@ -311,6 +311,17 @@ class Logs(Case):
         self.assertEqual(info["last_hash"], trace["hashes"][89])
         self.expect(CORRUPT, "seek", path, 91)
 
+    def test_of_a_race_of_bots_have_a_car_for_each_player(self):
+        path = self.record("race.lks", "--scene", "race")
+        self.expect(OK, "verify", "--strict", path)
+        info = json.loads(self.expect(OK, "info", "--json", path).stdout)
+        trace = json.loads(self.expect(OK, "trace", path).stdout)
+        run = json.loads(self.expect(OK, "run", "--scene", "race", "--ticks", 90, "--json").stdout)
+        self.assertEqual(info["header"]["players"], 16)
+        self.assertEqual(trace["hashes"][89], run["final_hash"])
+        played = self.expect(OK, "simnet", "--scene", "race", "--seeds", 1, "--ticks", 60, "--json")
+        self.assertEqual(json.loads(played.stdout)["failures"], [])
+
     def test_are_cut_and_repaired(self):
         path = self.record("whole.lks")
         part, torn, saved = (self.folder / name for name in ("part.lks", "torn.lks", "saved.lks"))

@@ -20,7 +20,16 @@ class WorldPlay final : public ScenePlay {
             std::uint32_t spare_bodies)
       : simulation_(scene, seed, broad_phase, spare_bodies) {}
 
-  [[nodiscard]] std::span<const PlayerInput> next_inputs() override { return {&k_absent, 1}; }
+  [[nodiscard]] std::span<const PlayerInput> next_inputs() override {
+    const ScenePlayers* players = simulation_.scene().players;
+    if (players == nullptr) return {&k_absent, 1};
+    for (std::size_t slot = 0; slot < players->count; ++slot) {
+      const std::span<std::byte> input = std::span(bytes_[slot]).first(players->input_bytes);
+      players->press(world(), slot, input);
+      inputs_[slot] = {input, InputOrigin::received};
+    }
+    return std::span(inputs_).first(players->count);
+  }
   [[nodiscard]] Simulation& simulation() override { return simulation_; }
   [[nodiscard]] const World& world() const override { return simulation_.world(); }
   [[nodiscard]] const StepReport& last_report() const override { return simulation_.last_report(); }
@@ -34,6 +43,8 @@ class WorldPlay final : public ScenePlay {
   static constexpr PlayerInput k_absent{k_nothing, InputOrigin::absent};
 
   SceneSimulation simulation_;
+  std::array<std::array<std::byte, k_max_input_bytes>, k_max_players> bytes_{};
+  std::array<PlayerInput, k_max_players> inputs_{};
 };
 
 class ArenaPlay final : public ScenePlay {

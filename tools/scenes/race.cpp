@@ -1,4 +1,4 @@
-// Sixteen cars race round a track over hills, each driven by a simple bot.
+// Sixteen cars race round a track over hills, each driven by a player or by a simple bot.
 #include <array>
 #include <vector>
 
@@ -16,6 +16,7 @@ using namespace lockstone::literals;
 
 constexpr int k_samples = 65, k_cell_mm = 3000, k_half_mm = (k_samples - 1) * k_cell_mm / 2;
 constexpr int k_waypoints = 24, k_cars = 16;
+constexpr Unit k_throttle = Unit::from_ratio(7, 10), k_braking = Unit::from_ratio(1, 2);
 constexpr std::int64_t k_long_mm = 70'000, k_short_mm = 42'000;  // half axes of the track
 
 struct Waypoint {
@@ -108,7 +109,7 @@ Waypoint target_of(const Vec3<Position>& at) {
 }
 
 // Towards the target; slower where it has to turn.
-void steer(World& world, BodyHandle car, std::uint32_t skill) {
+VehicleControls controls_of_bot(const World& world, BodyHandle car) {
   const Transform pose = pose_of(world, car);
   const Waypoint target = target_of(pose.position);
   const Vec3<Length> way =
@@ -116,20 +117,50 @@ void steer(World& world, BodyHandle car, std::uint32_t skill) {
   const Vec3<Length> seen = rotate_inverse(to_matrix(pose.orientation), way);
   const Angle aside = atan2(seen.z, seen.x);
   const Velocity speed = length(world.velocity(car));
-  const Velocity wanted = Velocity::from_integer(13 + skill % 5) -
+  const Velocity wanted = Velocity::from_integer(13 + car.index % 5) -
                           Velocity::from_raw(std::int64_t{abs(aside).raw} << 6);
   VehicleControls controls;
   controls.steer = clamp(Unit::from_raw(raw::saturate<std::int32_t>(std::int64_t{aside.raw} * 12)),
                          -Unit::from_integer(1), Unit::from_integer(1));
-  if (speed < wanted) controls.throttle = Unit::from_ratio(7, 10);
-  if (speed > wanted + 2_mps) controls.brake = Unit::from_ratio(1, 2);
-  order(world, DriveVehicle{car, controls});
+  if (speed < wanted) controls.throttle = k_throttle;
+  if (speed > wanted + 2_mps) controls.brake = k_braking;
+  return controls;
 }
 
 void drive_race(World& world, std::uint64_t) {
   for (std::uint32_t i = 0; i < world.body_limit(); ++i)
-    if (const BodyHandle body = world.body_at(i); vehicle_of(world, body)) steer(world, body, i);
+    if (const BodyHandle body = world.body_at(i); vehicle_of(world, body))
+      order(world, DriveVehicle{body, controls_of_bot(world, body)});
 }
+
+// Of a player's slot: the first body is the ground.
+BodyHandle car_of(const World& world, std::size_t slot) {
+  return world.body_at(static_cast<std::uint32_t>(slot) + 1);
+}
+
+// An input: the steering, and a bit for each pedal.
+constexpr std::uint8_t k_gas = 1, k_brake = 2;
+
+void press(const World& world, std::size_t slot, std::span<std::byte> out) {
+  const VehicleControls controls = controls_of_bot(world, car_of(world, slot));
+  ByteWriter writer(out);
+  writer.put(controls.steer.raw);
+  writer.put(static_cast<std::uint8_t>((controls.throttle > Unit{} ? k_gas : 0) |
+                                       (controls.brake > Unit{} ? k_brake : 0)));
+}
+
+void apply(World& world, std::size_t slot, ByteView input) {
+  ByteReader reader(input);
+  constexpr Unit k_full = Unit::from_integer(1);
+  VehicleControls controls;
+  controls.steer = clamp(Unit::from_raw(reader.get<std::int32_t>()), -k_full, k_full);
+  const auto pedals = reader.get<std::uint8_t>();
+  if ((pedals & k_gas) != 0) controls.throttle = k_throttle;
+  if ((pedals & k_brake) != 0) controls.brake = k_braking;
+  order(world, DriveVehicle{car_of(world, slot), controls});
+}
+
+constexpr ScenePlayers k_drivers{.count = k_cars, .input_bytes = 5, .press = press, .apply = apply};
 
 }  // namespace
 
@@ -139,6 +170,7 @@ constinit const Scene k_race{.name = "race",
                              .define = race_world,
                              .build = build_race,
                              .drive = drive_race,
-                             .assets = race_assets};
+                             .assets = race_assets,
+                             .players = &k_drivers};
 
 }  // namespace lockstone::scenes

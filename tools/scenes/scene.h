@@ -11,6 +11,16 @@
 
 namespace lockstone::scenes {
 
+/// Those who play in a scene; bots, where nobody does.
+struct ScenePlayers {
+  std::uint32_t count;      ///< 1 … k_max_players
+  std::size_t input_bytes;  ///< of a player and tick
+  /// Writes a bot's input for the coming tick.
+  void (*press)(const World& world, std::size_t slot, std::span<std::byte> out);
+  /// Gives the commands of an input, which may hold any bytes.
+  void (*apply)(World& world, std::size_t slot, ByteView input);
+};
+
 /// A scene has no memory besides its world: its commands of a tick follow from seed, tick and
 /// world.
 struct Scene {
@@ -21,7 +31,7 @@ struct Scene {
   WorldDef (*define)();
   void (*build)(World& world, std::uint64_t seed);
 
-  /// Commands before a step; may be null.
+  /// Commands before a step; may be null. Of a scene with players those of all its bots.
   void (*drive)(World& world, std::uint64_t seed) = nullptr;
 
   /// After a step, while its events can be read; may be null.
@@ -30,6 +40,9 @@ struct Scene {
   /// The assets of the scene's bodies; null for none. Assets are named by content, so `build` makes
   /// the same list again to learn their names.
   std::vector<AssetPtr> (*assets)(std::uint64_t seed) = nullptr;
+
+  /// In a match their inputs take the place of `drive`; null: nobody plays.
+  const ScenePlayers* players = nullptr;
 };
 
 /// All scenes on a bare world, in the order in which they are listed. The arena, which has players,

@@ -42,8 +42,10 @@ SceneSimulation::SceneSimulation(const Scene& scene, std::uint64_t seed, BroadPh
   info_.scene_hash = hash();
   info_.canary = canary_hash();
   info_.tick_rate = world_.def().tick_rate;
-  info_.player_count = 1;
-  info_.input_bytes = 1;
+  info_.player_count =
+      static_cast<std::uint8_t>(scene.players == nullptr ? 1 : scene.players->count);
+  info_.input_bytes =
+      static_cast<std::uint8_t>(scene.players == nullptr ? 1 : scene.players->input_bytes);
 }
 
 std::size_t SceneSimulation::part_hashes(std::span<PartHash, k_max_state_parts> out) const {
@@ -56,8 +58,13 @@ std::size_t SceneSimulation::part_hashes(std::span<PartHash, k_max_state_parts> 
 }
 
 void SceneSimulation::step(std::span<const PlayerInput> inputs) {
-  LKS_CHECK(inputs.size() == 1);
-  if (scene_.drive != nullptr) scene_.drive(world_, seed_);
+  LKS_CHECK(inputs.size() == info_.player_count);
+  if (scene_.players != nullptr) {
+    for (std::size_t slot = 0; slot < inputs.size(); ++slot)
+      scene_.players->apply(world_, slot, inputs[slot].bytes);
+  } else if (scene_.drive != nullptr) {
+    scene_.drive(world_, seed_);
+  }
   last_report_ = history_.step();
   if (scene_.observe != nullptr) scene_.observe(world_);
 }

@@ -1,5 +1,5 @@
-// A scene on a bare world as a lockstone::Simulation. Nobody plays: it has one slot, whose single
-// input byte is not looked at.
+// A scene on a bare world as a lockstone::Simulation. Where nobody plays it has one slot, whose
+// single input byte is not looked at.
 #pragma once
 
 #include <array>
@@ -52,6 +52,7 @@ class SceneSimulation final : public Simulation {
     return world_.describe_difference(here, there);
   }
 
+  [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] World& world_for_tests() { return world_; }
   [[nodiscard]] const StepReport& last_report() const { return last_report_; }

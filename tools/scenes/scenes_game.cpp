@@ -12,8 +12,11 @@ Result<std::vector<std::byte>> configure(const MatchRequest& request) {
   return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
-bool press_nothing(const BotView&, std::span<std::byte>) {
-  return false;
+bool press(const BotView& view, std::span<std::byte> out) {
+  const auto* scene = dynamic_cast<const SceneSimulation*>(&view.simulation);
+  if (scene == nullptr || scene->scene().players == nullptr) return false;
+  scene->scene().players->press(scene->world(), view.slot, out);
+  return true;
 }
 
 World* world_inside(Simulation& simulation) {
@@ -32,7 +35,7 @@ GameDef scenes_game() {
   for (const Scene& scene : world_scenes())
     game.scenes.push_back(
         {std::string(scene.name), std::string(scene.description), scene.golden_ticks});
-  game.bot = press_nothing;
+  game.bot = press;
   game.world = world_inside;
   return game;
 }

@@ -9,6 +9,7 @@ constexpr const SpeedScene* k_scenes[] = {
     &k_large_pyramid, &k_many_pyramids, &k_ball_rain,  &k_capsule_pile, &k_box_rain,
     &k_mixed,         &k_washer,        &k_joint_grid, &k_convex_pile,  &k_junkyard,
     &k_ragdoll_rain,  &k_figure_rain,   &k_terrain,    &k_storm,        &k_city,
+    &k_race,          &k_walkers_200,
 };
 
 }  // namespace

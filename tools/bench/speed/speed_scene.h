@@ -46,5 +46,6 @@ extern const SpeedScene k_ragdoll_rain, k_figure_rain;                     // ra
 extern const SpeedScene k_terrain;                                         // terrain.cpp
 extern const SpeedScene k_storm;                                           // storm.cpp
 extern const SpeedScene k_city;                                            // city.cpp
+extern const SpeedScene k_race, k_walkers_200;                             // play.cpp
 
 }  // namespace lockstone::bench
