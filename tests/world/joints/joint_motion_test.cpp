@@ -345,6 +345,47 @@ TEST(Joints, GearTurnsTheOtherWay) {
   EXPECT_NEAR(of_a + 2 * of_b, 0, 1e-5);
 }
 
+// A pinion of 5 rad for each metre of its rack.
+TEST(Joints, RackMovesAsItsPinionTurns) {
+  World world = test::make_world(
+      {.body_capacity = 8, .pair_capacity = 8, .contact_capacity = 8, .gravity = {}});
+  const BodyHandle base = add_fixed(world);
+  const BodyHandle pinion = test::add(world, test::dynamic_body(Shape::sphere(0.2_m), {}, {}, {}));
+  const BodyHandle bar =
+      test::add(world, test::dynamic_body(Shape::box(1_m, 0.1_m, 0.1_m), {}, -1_m, {}));
+  join(world, JointDef::of(JointKind::hinge, base, pinion));
+  JointDef slider = JointDef::of(JointKind::slider, base, bar);
+  slider.frame_a.position.y = -1_m;
+  join(world, slider);
+  JointDef rack = JointDef::of(JointKind::rack, pinion, bar);
+  rack.ratio = 5_r;
+  join(world, rack);
+  ASSERT_EQ(world.apply(SetAngularVelocity{pinion, {60_rps, {}, {}}}), Status::ok);
+  ASSERT_EQ(world.apply(SetVelocity{bar, {-1_mps, {}, {}}}), Status::ok);
+  test::step(world, 60);
+  const double turning = number(world.body(pinion).angular_velocity.x.raw, 32);
+  const double speed = test::metres_per_second(world.velocity(bar).x);
+  EXPECT_LT(speed, -0.5);
+  EXPECT_NEAR(turning + 5 * speed, 0, 1e-5);
+}
+
+TEST(Joints, PulleyOfARatioIsATackle) {
+  World world = test::make_world();
+  BodyDef def = test::dynamic_body(Shape::sphere(0.25_m), -1_m, {}, {});
+  const BodyHandle a = test::add(world, def);
+  def.position.x = 1_m;
+  def.material.density = Density::from_integer(3000);
+  JointDef pulley = JointDef::of(JointKind::pulley, a, test::add(world, def));
+  pulley.ground_a = {-1_m, 5_m, {}};
+  pulley.ground_b = {1_m, 5_m, {}};
+  pulley.ratio = 2_r;
+  join(world, pulley);
+  test::step(world, 60);
+  const double up = test::metres(world.position(a).y);
+  EXPECT_NEAR(up + 2 * test::metres(world.position(pulley.body_b).y), 0, 1e-5);
+  EXPECT_NEAR(up, 9.81 * 2 / 7 / 2, 1e-2);  // a = g·r·(m₂ − r·m₁)/(m₂ + r²·m₁)
+}
+
 // A box on a base that goes 2 m/s along x and turns at 1 rad/s about z.
 struct MovingBase {
   World world;
