@@ -219,7 +219,8 @@ class World {
 
   /// Names a body for people, as `describe_difference` prints it. A name is not state: it is
   /// neither hashed nor saved, changes no result, and a world that loads a snapshot knows the names
-  /// that were set in it alone. There a name stays with its handle, over `load` too. A name longer
+  /// that were set in it alone: for a name that a snapshot holds, make it of `user_data`
+  /// (docs/how-to/debugging.md). It stays with its handle, over `load` too. A name longer
   /// than k_max_body_name bytes is cut; a control character or a quotation mark becomes '?'.
   /// stale_handle when there is no such body. Does not allocate.
   Status set_name(BodyHandle body, std::string_view name);
