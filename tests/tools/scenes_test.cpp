@@ -90,8 +90,7 @@ TEST_P(EveryScene, KeepsItsBodiesInTheWorld) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, ::testing::ValuesIn(names()),
-                         test::parameter_name);
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, ::testing::ValuesIn(names()), test::parameter_name);
 
 TEST(Scenes, AreMadeFromTheirConfiguration) {
   const auto play = make_play("pile", 7).value();
@@ -107,6 +106,58 @@ TEST(Scenes, RefuseUnknownConfigurations) {
   const auto bytes = encode_config("pile", 1);
   EXPECT_EQ(make_simulation(ByteView(bytes).first(20)).status(), Status::truncated);
   EXPECT_EQ(make_play("nothing", 1).status(), Status::not_found);
+}
+
+std::vector<std::int32_t> values_of(std::string_view scene, std::int32_t SceneParameter::*which) {
+  std::vector<std::int32_t> values;
+  for (const SceneParameter& one : parameters_of(scene))
+    values.push_back(one.*which);
+  return values;
+}
+
+Result<std::unique_ptr<ScenePlay>> make_with(std::string_view scene,
+                                             std::span<const std::int32_t> values) {
+  return make_play(scene, k_seed, BroadPhaseKind::tree, 0, values);
+}
+
+TEST(SceneParameters, AtTheirUsualValuesMakeTheSceneItself) {
+  for (const Scene& scene : world_scenes()) {
+    const auto usual = values_of(scene.name, &SceneParameter::usual);
+    ASSERT_GE(usual.size(), 2U);
+    const auto play = make_with(scene.name, usual).value();
+    EXPECT_EQ(play->simulation().info(), make_play(scene.name, k_seed).value()->simulation().info())
+        << scene.name;
+  }
+}
+
+TEST(SceneParameters, AtTheirBoundsMakeAWorldThatSteps) {
+  for (const Scene& scene : world_scenes()) {
+    if (parameters_of(scene).size() == 2) continue;  // those of every scene alone
+    for (const auto which : {&SceneParameter::least, &SceneParameter::most}) {
+      const auto play = make_with(scene.name, values_of(scene.name, which)).value();
+      for (int tick = 0; tick < 3; ++tick)
+        play->step();
+      EXPECT_EQ(play->last_report().status, Status::ok) << scene.name;
+    }
+  }
+}
+
+TEST(SceneParameters, SayHowManyBodiesThereAre) {
+  EXPECT_EQ(make_with("stack", std::array{20}).value()->world().body_count(), 21U);
+  EXPECT_EQ(make_with("wall", std::array{44}).value()->world().body_count(), 991U);
+  EXPECT_EQ(make_with("bridge", std::array{20, 7}).value()->world().body_count(), 29U);
+  const auto moon = make_with("stack", std::array{10, 8, 162}).value();
+  EXPECT_EQ(moon->world().def().substeps, 8);
+  EXPECT_EQ(moon->world().def().gravity.y, Acceleration::from_ratio(-162, 100));
+}
+
+TEST(SceneParameters, RefuseValuesOutOfTheirRange) {
+  EXPECT_EQ(make_with("stack", std::array{0}).status(), Status::invalid_argument);
+  EXPECT_EQ(make_with("stack", std::array{41}).status(), Status::invalid_argument);
+  EXPECT_EQ(make_with("stack", std::array{10, 4, 981, 1}).status(), Status::invalid_argument);
+  EXPECT_EQ(make_with("arena", std::array{1}).status(), Status::invalid_argument);
+  EXPECT_TRUE(parameters_of("arena").empty());
+  EXPECT_TRUE(parameters_of("nothing").empty());
 }
 
 // Bodies of a scene, found by their order of creation.

@@ -87,7 +87,7 @@ constinit const Scene k_belts{.name = "belts",
                               .description = "belts, a turntable, balls that resist rolling",
                               .golden_ticks = 300,
                               .define = small_world,
-                              .build = build_belts,
+                              .builder = build_belts,
                               .drive = push};
 
 }  // namespace lockstone::scenes

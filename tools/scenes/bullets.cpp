@@ -114,7 +114,7 @@ constinit const Scene k_bullets{.name = "bullets",
                                 .description = "fast shots against thin walls, mesh and hillside",
                                 .golden_ticks = 300,
                                 .define = small_world,
-                                .build = build_bullets,
+                                .builder = build_bullets,
                                 .assets = bullet_assets};
 
 }  // namespace lockstone::scenes

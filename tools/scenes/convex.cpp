@@ -25,15 +25,14 @@ std::vector<AssetPtr> hull_assets(std::uint64_t seed) {
   return assets;
 }
 
-void build_hulls(World& world, std::uint64_t seed) {
-  constexpr int k_bodies = 48;
+void build_hulls(World& world, std::uint64_t seed, const SceneValues& values) {
   BodyDef ground;
   ground.motion = MotionType::static_body;
   ground.shape = Shape::half_space();
   add(world, ground);
   const std::vector<AssetPtr> assets = hull_assets(seed);
   Random random(mix(seed ^ 1));
-  for (int i = 0; i < k_bodies; ++i) {
+  for (int i = 0; i < values[0]; ++i) {
     const std::int32_t x = i % 4 * 1300 - 1950 + random.between(-100, 100);
     const std::int32_t z = i / 4 % 4 * 1300 - 1950 + random.between(-100, 100);
     BodyDef def = loose(assets[static_cast<std::size_t>(i) % assets.size()]->shape(),
@@ -104,13 +103,14 @@ constinit const Scene k_hulls{.name = "hulls",
                               .description = "chunks, slivers and needles drop onto a half-space",
                               .golden_ticks = 300,
                               .define = small_world,
-                              .build = build_hulls,
-                              .assets = hull_assets};
+                              .builder = build_hulls,
+                              .assets = hull_assets,
+                              .own_parameters = {{{"bodies", 48, 1, 960}}}};
 constinit const Scene k_compounds{.name = "compounds",
                                   .description = "furniture, hammers, an axe and dumbbells",
                                   .golden_ticks = 300,
                                   .define = small_world,
-                                  .build = build_compounds,
+                                  .builder = build_compounds,
                                   .assets = compound_assets};
 
 }  // namespace lockstone::scenes

@@ -180,7 +180,7 @@ constinit const Scene k_crowd{
     .description = "characters on stairs, a ramp, a turntable and a lift; crates that they push",
     .golden_ticks = 240,
     .define = small_world,
-    .build = build_crowd,
+    .builder = build_crowd,
     .drive = drive_crowd};
 
 constinit const Scene k_characters{
@@ -188,7 +188,7 @@ constinit const Scene k_characters{
     .description = "48 characters of three shapes on steps, ramps, ferries, lifts and a turntable",
     .golden_ticks = 240,
     .define = small_world,
-    .build = build_characters,
+    .builder = build_characters,
     .drive = drive_crowd};
 
 }  // namespace lockstone::scenes

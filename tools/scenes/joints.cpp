@@ -12,14 +12,15 @@ void join(World& world, const JointDef& def) {
   order(world, CreateJoint{def});
 }
 
-// Ten links, the last a hundred times as heavy, swing from the horizontal.
-void build_chain(World& world, std::uint64_t) {
+// Links, the last of them many times as heavy, swing from the horizontal.
+void build_chain(World& world, std::uint64_t, const SceneValues& values) {
+  const int links = values[0], times_heavier = values[1];
   BodyHandle last = add(world, fixed_box({{}, 11_m, {}}, {0.1_m, 0.1_m, 0.1_m}));
-  for (int i = 0; i < 10; ++i) {
-    const bool is_end = i == 9;
+  for (int i = 0; i < links; ++i) {
+    const bool is_end = i == links - 1;
     BodyDef link = loose(is_end ? Shape::sphere(0.5_m) : Shape::box(0.4_m, 0.08_m, 0.08_m),
                          {millimetres(500 + i * 1000), 11_m, {}});
-    if (is_end) link.material.density = Density::from_integer(3900);
+    if (is_end) link.material.density = Density::from_integer(39 * times_heavier);
     JointDef joint = JointDef::of(JointKind::ball, last, add(world, link));
     if (i > 0) joint.frame_a.position.x = 0.5_m;
     joint.frame_b.position.x = -0.5_m;
@@ -53,9 +54,10 @@ void build_pendulums(World& world, std::uint64_t) {
 }
 
 // Planks on two ropes of ball joints; boxes fall on it.
-void build_bridge(World& world, std::uint64_t) {
-  constexpr int k_planks = 12;
-  BodyHandle last = add(world, fixed_box({-6.5_m, 3_m, {}}, {0.5_m, 0.1_m, 1_m}));
+void build_bridge(World& world, std::uint64_t, const SceneValues& values) {
+  const int planks = values[0], boxes = values[1];
+  BodyHandle last =
+      add(world, fixed_box({millimetres(-500 * (planks + 1)), 3_m, {}}, {0.5_m, 0.1_m, 1_m}));
   const auto tie = [&](BodyHandle to) {
     for (const int side : {-1, 1}) {
       JointDef joint = JointDef::of(JointKind::ball, last, to);
@@ -65,15 +67,16 @@ void build_bridge(World& world, std::uint64_t) {
     }
     last = to;
   };
-  for (int i = 0; i < k_planks; ++i) {
-    BodyDef plank =
-        loose(Shape::box(0.48_m, 0.06_m, 1_m), {millimetres(-5500 + i * 1000), 3_m, {}});
+  for (int i = 0; i < planks; ++i) {
+    BodyDef plank = loose(Shape::box(0.48_m, 0.06_m, 1_m),
+                          {millimetres(i * 1000 - 500 * (planks - 1)), 3_m, {}});
     plank.material.density = Density::from_integer(600);
     tie(add(world, plank));
   }
-  tie(add(world, fixed_box({6.5_m, 3_m, {}}, {0.5_m, 0.1_m, 1_m})));
-  for (int i = 0; i < 4; ++i)
-    add(world, loose(Shape::box(0.3_m, 0.3_m, 0.3_m), {millimetres(i * 1500 - 2200), 4.5_m, {}}));
+  tie(add(world, fixed_box({millimetres(500 * (planks + 1)), 3_m, {}}, {0.5_m, 0.1_m, 1_m})));
+  for (int i = 0; i < boxes; ++i)
+    add(world, loose(Shape::box(0.3_m, 0.3_m, 0.3_m),
+                     {millimetres(i * 1500 - 2200 - 750 * (boxes - 4)), 4.5_m, {}}));
 }
 
 }  // namespace
@@ -113,11 +116,12 @@ void add_ragdoll(World& world, const Vec3<Position>& at, std::uint64_t user_data
 
 namespace {
 
-void build_ragdoll(World& world, std::uint64_t) {
+void build_ragdoll(World& world, std::uint64_t, const SceneValues& values) {
   add_ground(world, 8_m);
   add(world, fixed_box({0.5_m, 0.5_m, {}}, {0.5_m, 0.5_m, 2_m}));
-  add_ragdoll(world, {-0.5_m, 3.5_m, {}});
-  add_ragdoll(world, {0.6_m, 5.5_m, 0.5_m});
+  for (int i = 0; i < values[0]; ++i)
+    add_ragdoll(world, {millimetres(i % 2 == 0 ? -500 : 600), millimetres(3500 + 2000 * i),
+                        millimetres(i % 2 * 500)});
 }
 
 // Four wheels on suspensions; the hind ones drive, the front ones steer.
@@ -157,14 +161,27 @@ void build_vehicle(World& world, std::uint64_t) {
 
 }  // namespace
 
-constinit const Scene k_chain{"chain", "ten links with 100 : 1 at the end swing", 240, small_world,
-                              build_chain};
+constinit const Scene k_chain{
+    .name = "chain",
+    .description = "ten links with 100 : 1 at the end swing",
+    .golden_ticks = 240,
+    .define = small_world,
+    .builder = build_chain,
+    .own_parameters = {{{"links", 10, 2, 60}, {"times heavier", 100, 1, 1000}}}};
 constinit const Scene k_pendulum{"pendulum", "a pendulum, a double one, a rod on a spring", 240,
                                  small_world, build_pendulums};
-constinit const Scene k_bridge{"bridge", "boxes fall on a hanging bridge", 240, small_world,
-                               build_bridge};
-constinit const Scene k_ragdoll{"ragdoll", "two ragdolls fall on a block", 200, small_world,
-                                build_ragdoll};
+constinit const Scene k_bridge{.name = "bridge",
+                               .description = "boxes fall on a hanging bridge",
+                               .golden_ticks = 240,
+                               .define = small_world,
+                               .builder = build_bridge,
+                               .own_parameters = {{{"planks", 12, 2, 60}, {"boxes", 4, 0, 30}}}};
+constinit const Scene k_ragdoll{.name = "ragdoll",
+                                .description = "two ragdolls fall on a block",
+                                .golden_ticks = 200,
+                                .define = small_world,
+                                .builder = build_ragdoll,
+                                .own_parameters = {{{"ragdolls", 2, 1, 40}}}};
 constinit const Scene k_vehicle{"vehicle", "a car with suspension drives over a ramp", 240,
                                 small_world, build_vehicle};
 

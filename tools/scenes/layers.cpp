@@ -103,7 +103,7 @@ constinit const Scene k_layers{.name = "layers",
                                .description = "sieves, groups, and triggers of every shape",
                                .golden_ticks = 300,
                                .define = small_world,
-                               .build = build_layers,
+                               .builder = build_layers,
                                .observe = count_in_triggers,
                                .assets = layer_assets};
 

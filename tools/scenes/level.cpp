@@ -104,7 +104,7 @@ constinit const Scene k_level{
     .description = "a level of meshes, boxes and hulls in one body; panels of it open",
     .golden_ticks = 300,
     .define = level_world,
-    .build = build_level,
+    .builder = build_level,
     .drive = drive_level,
     .assets = level_assets};
 

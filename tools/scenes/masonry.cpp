@@ -59,8 +59,6 @@ void build_arch(World& world, std::uint64_t seed) {
 
 // The house of cards ------------------------------------------------------------------------------
 
-constexpr int k_storeys = 4;
-
 // Cards of 30 cm × 20 cm × 5 mm, 2d thick and 2h high. The first of a pair leans by 29 degrees, the
 // edge of the second at 31 degrees against its face; so every card rests on edges that meet faces.
 constexpr Position k_pitch = 0.31_m;           // from pair to pair
@@ -84,12 +82,13 @@ void add_pair(World& world, Position x, Position y) {
 }
 
 // Each storey but the last carries a board, which lies on the first card of every pair.
-void build_card_house(World& world, std::uint64_t) {
+void build_card_house(World& world, std::uint64_t, const SceneValues& values) {
+  const int storeys = values[0];
   BodyDef table = fixed_box({{}, -0.5_m, {}}, {2_m, 0.5_m, 2_m});
   table.material.friction = 0.8_r;
   add(world, table);
-  for (int storey = 0; storey < k_storeys; ++storey) {
-    const int pairs = k_storeys - storey;
+  for (int storey = 0; storey < storeys; ++storey) {
+    const int pairs = storeys - storey;
     const Position base = k_storey * storey;
     const Position left = -(k_pitch * (pairs - 1)) / 2 - k_between / 2;
     for (int i = 0; i < pairs; ++i)
@@ -109,9 +108,13 @@ constinit const Scene k_arch{.name = "arch",
                              .description = "eleven stones stand without mortar",
                              .golden_ticks = 240,
                              .define = sleepless,
-                             .build = build_arch,
+                             .builder = build_arch,
                              .assets = arch_assets};
-constinit const Scene k_cards{"cards", "20 cards and three boards in four storeys", 240, sleepless,
-                              build_card_house};
+constinit const Scene k_cards{.name = "cards",
+                              .description = "20 cards and three boards in four storeys",
+                              .golden_ticks = 240,
+                              .define = sleepless,
+                              .builder = build_card_house,
+                              .own_parameters = {{{"storeys", 4, 1, 10}}}};
 
 }  // namespace lockstone::scenes

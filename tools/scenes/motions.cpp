@@ -32,12 +32,12 @@ void build_capsule(World& world, std::uint64_t) {
   add(world, lying);
 }
 
-void build_bounce(World& world, std::uint64_t) {
-  constexpr int k_balls = 6;
+void build_bounce(World& world, std::uint64_t, const SceneValues& values) {
+  const int balls = values[0];
   add_ground(world, 10_m);
-  for (int i = 0; i < k_balls; ++i) {
+  for (int i = 0; i < balls; ++i) {
     BodyDef ball = loose(Shape::sphere(0.4_m), {millimetres(i * 1200 - 3000), 4_m, {}});
-    ball.material.restitution = Coefficient::from_ratio(i, k_balls - 1);
+    ball.material.restitution = Coefficient::from_ratio(i, balls - 1);
     add(world, ball);
   }
   BodyDef box = loose(Shape::box(0.4_m, 0.4_m, 0.4_m), {{}, 4_m, 5_m});
@@ -91,8 +91,12 @@ constinit const Scene k_rolling{"rolling", "a ball rolls over a table and down a
                                 small_world, build_rolling};
 constinit const Scene k_capsule{"capsule", "a character stands, two free capsules fall over", 200,
                                 small_world, build_capsule};
-constinit const Scene k_bounce{"bounce", "balls of restitution 0 to 1 and a box bounce", 300,
-                               small_world, build_bounce};
+constinit const Scene k_bounce{.name = "bounce",
+                               .description = "balls of restitution 0 to 1 and a box bounce",
+                               .golden_ticks = 300,
+                               .define = small_world,
+                               .builder = build_bounce,
+                               .own_parameters = {{{"balls", 6, 2, 11}}}};
 constinit const Scene k_friction{"friction", "boxes of three roughnesses on slopes of 11° to 34°",
                                  240, small_world, build_friction};
 constinit const Scene k_spin{"spin", "two weightless boxes tumble about the middle axis", 300,

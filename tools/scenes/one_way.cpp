@@ -104,7 +104,7 @@ constinit const Scene k_one_way{
     .description = "boxes, balls and characters jump onto platforms from below",
     .golden_ticks = 300,
     .define = small_world,
-    .build = build_one_way,
+    .builder = build_one_way,
     .drive = drive_one_way};
 
 }  // namespace lockstone::scenes

@@ -17,8 +17,8 @@ constexpr std::uint32_t k_arena_golden_ticks = 150;
 class WorldPlay final : public ScenePlay {
  public:
   WorldPlay(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase,
-            std::uint32_t spare_bodies)
-      : simulation_(scene, seed, broad_phase, spare_bodies) {}
+            std::uint32_t spare_bodies, std::span<const std::int32_t> values)
+      : simulation_(scene, seed, broad_phase, spare_bodies, values) {}
 
   [[nodiscard]] std::span<const PlayerInput> next_inputs() override {
     const ScenePlayers* players = simulation_.scene().players;
@@ -84,22 +84,29 @@ std::vector<SceneSummary> list_scenes() {
   return list;
 }
 
+std::vector<SceneParameter> parameters_of(std::string_view name) {
+  const Scene* scene = find_scene(name);
+  return scene == nullptr ? std::vector<SceneParameter>{} : parameters_of(*scene);
+}
+
 std::uint32_t count_bodies(const SceneSummary& scene) {
   return make_play(scene.name, 1).value()->world().body_count();
 }
 
 Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name, std::uint64_t seed,
-                                             BroadPhaseKind broad_phase,
-                                             std::uint32_t spare_bodies) {
+                                             BroadPhaseKind broad_phase, std::uint32_t spare_bodies,
+                                             std::span<const std::int32_t> values) {
   if (name == k_arena_name) {
+    if (!values.empty()) return Status::invalid_argument;
     arena::ArenaConfig config;
     config.seed = seed;
     return std::unique_ptr<ScenePlay>(std::make_unique<ArenaPlay>(config, broad_phase));
   }
   const Scene* scene = find_scene(name);
   if (scene == nullptr) return Status::not_found;
+  if (!scene_values(*scene, values).ok()) return Status::invalid_argument;
   return std::unique_ptr<ScenePlay>(
-      std::make_unique<WorldPlay>(*scene, seed, broad_phase, spare_bodies));
+      std::make_unique<WorldPlay>(*scene, seed, broad_phase, spare_bodies, values));
 }
 
 Result<std::unique_ptr<Simulation>> make_simulation(ByteView config) {

@@ -10,6 +10,8 @@
 #include <lockstone/simulation.h>
 #include <lockstone/world.h>
 
+#include "tools/scenes/scene.h"
+
 namespace lockstone::scenes {
 
 /// The entry of a scene in the list of scenes.
@@ -45,11 +47,15 @@ class ScenePlay {
   virtual void set_task_runner(TaskRunner* runner, TaskPieces pieces) = 0;
 };
 
-/// not_found for an unknown name. The broad phase changes no result, and `spare_bodies`, room for
-/// bodies besides those of a scene on a bare world, neither.
+/// Parameters of a scene in the list; the arena has none.
+[[nodiscard]] std::vector<SceneParameter> parameters_of(std::string_view name);
+
+/// not_found for an unknown name; invalid_argument for `values` that scene_values refuses. The
+/// broad phase changes no result, and `spare_bodies`, room for bodies besides those of a scene on a
+/// bare world, neither.
 [[nodiscard]] Result<std::unique_ptr<ScenePlay>> make_play(
     std::string_view name, std::uint64_t seed, BroadPhaseKind broad_phase = BroadPhaseKind::tree,
-    std::uint32_t spare_bodies = 0);
+    std::uint32_t spare_bodies = 0, std::span<const std::int32_t> values = {});
 
 /// Makes whatever simulation configuration bytes name: the arena or a scene. For tests; the tools
 /// go by their list of games.

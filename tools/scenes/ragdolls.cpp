@@ -188,7 +188,7 @@ constinit const Scene k_ragdoll_drive{
         "falls and one hangs by a hand",
     .golden_ticks = 240,
     .define = small_world,
-    .build = build_ragdolls,
+    .builder = build_ragdolls,
     .drive = drive_ragdolls};
 
 }  // namespace lockstone::scenes

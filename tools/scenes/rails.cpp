@@ -156,7 +156,7 @@ constinit const Scene k_coaster{
     .description = "a chain lifts a train of three carts on a track; beads swing on a wire",
     .golden_ticks = 300,
     .define = small_world,
-    .build = build_coaster,
+    .builder = build_coaster,
     .drive = drive_coaster,
     .assets = rail_assets};
 constinit const Scene k_ratchets{"ratchets", "balls fall on bars whose ratchets turn one way", 300,

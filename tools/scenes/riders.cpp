@@ -112,7 +112,7 @@ constinit const Scene k_motorcycle{
     .description = "three motorcycles lean through a slalom",
     .golden_ticks = 300,
     .define = track_world,
-    .build = build_motorcycle,
+    .builder = build_motorcycle,
     .drive = drive_motorcycle,
 };
 
@@ -121,7 +121,7 @@ constinit const Scene k_tank{
     .description = "a tank climbs a step and pushes crates, another one turns on the spot",
     .golden_ticks = 300,
     .define = track_world,
-    .build = build_tank,
+    .builder = build_tank,
     .drive = drive_tank,
 };
 

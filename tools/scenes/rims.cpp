@@ -24,7 +24,7 @@ void build_rollers(World& world, std::uint64_t) {
 }
 
 // Drums on one another, a pyramid of lying pipes, and a pile of both that falls.
-void build_drums(World& world, std::uint64_t seed) {
+void build_drums(World& world, std::uint64_t seed, const SceneValues& values) {
   add_ground(world, 20_m);
   for (int i = 0; i < 6; ++i)
     add(world, loose(Shape::cylinder(0.45_m, 0.3_m), {-3_m, millimetres(450 + 900 * i), {}}));
@@ -39,7 +39,7 @@ void build_drums(World& world, std::uint64_t seed) {
     }
   }
   Random random(mix(seed));
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < values[0]; ++i) {
     BodyDef def =
         loose(i % 2 == 0 ? Shape::cylinder(0.2_m, 0.25_m) : Shape::cylinder(0.05_m, 0.3_m),
               {millimetres(random.between(-400, 400)), millimetres(1000 + 500 * i),
@@ -50,7 +50,7 @@ void build_drums(World& world, std::uint64_t seed) {
 }
 
 // Cones on their base, on a drum, on their side, on their tip, and in a pile.
-void build_cones(World& world, std::uint64_t seed) {
+void build_cones(World& world, std::uint64_t seed, const SceneValues& values) {
   add_ground(world, 20_m);
   add(world, loose(Shape::cone(1_m, 0.4_m), {-3_m, 0.25_m, {}}));
   add(world, loose(Shape::cylinder(0.3_m, 0.5_m), {-1.5_m, 0.3_m, {}}));
@@ -64,7 +64,7 @@ void build_cones(World& world, std::uint64_t seed) {
   top.orientation = from_axis_angle(k_x_axis, 3.1_rad);
   add(world, top);
   Random random(mix(seed));
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < values[0]; ++i) {
     BodyDef def = loose(Shape::cone(0.5_m, 0.25_m),
                         {millimetres(random.between(-300, 300)), millimetres(800 + 500 * i),
                          millimetres(3500 + random.between(-300, 300))});
@@ -75,7 +75,7 @@ void build_cones(World& world, std::uint64_t seed) {
 
 // Clubs: one rolls in a circle about its apex, one is thrown at a wall of bricks, one spins
 // upright, and a pile falls on a slope.
-void build_clubs(World& world, std::uint64_t seed) {
+void build_clubs(World& world, std::uint64_t seed, const SceneValues& values) {
   add_ground(world, 20_m);
   const Shape club = Shape::tapered_capsule(1_m, 0.35_m, 0.15_m);
   // On its side, which leans from the axis by asin 0.2.
@@ -100,7 +100,7 @@ void build_clubs(World& world, std::uint64_t seed) {
   slope.orientation = from_axis_angle(k_z_axis, -0.3_rad);
   add(world, slope);
   Random random(mix(seed));
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < values[0]; ++i) {
     const auto radius = [&] { return millimetres_long(random.between(80, 250)); };
     // Compilers differ in the order of arguments.
     const Length bottom = radius(), height = millimetres_long(random.between(150, 700)),
@@ -138,12 +138,24 @@ void build_coins(World& world, std::uint64_t) {
 
 const Scene k_rollers = {"rollers", "cylinders of three lengths roll straight down a slope", 240,
                          small_world, build_rollers};
-const Scene k_drums = {"drums", "a stack of drums, a pyramid of pipes, a pile of cylinders", 240,
-                       small_world, build_drums};
-const Scene k_cones = {"cones", "cones on their base, rolling in a circle, on their tip", 240,
-                       small_world, build_cones};
-const Scene k_clubs = {"clubs", "tapered capsules roll, are thrown, spin, and fall in a pile", 240,
-                       small_world, build_clubs};
+const Scene k_drums{.name = "drums",
+                    .description = "a stack of drums, a pyramid of pipes, a pile of cylinders",
+                    .golden_ticks = 240,
+                    .define = small_world,
+                    .builder = build_drums,
+                    .own_parameters = {{{"pile", 12, 0, 200}}}};
+const Scene k_cones{.name = "cones",
+                    .description = "cones on their base, rolling in a circle, on their tip",
+                    .golden_ticks = 240,
+                    .define = small_world,
+                    .builder = build_cones,
+                    .own_parameters = {{{"pile", 10, 0, 200}}}};
+const Scene k_clubs{.name = "clubs",
+                    .description = "tapered capsules roll, are thrown, spin, and fall in a pile",
+                    .golden_ticks = 240,
+                    .define = small_world,
+                    .builder = build_clubs,
+                    .own_parameters = {{{"pile", 10, 0, 200}}}};
 const Scene k_coins = {"coins", "a coin that spins and settles, one that rolls, two that fall", 300,
                        small_world, build_coins};
 

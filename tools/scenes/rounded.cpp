@@ -18,7 +18,7 @@ Shape die(Length half) {
 
 // A stack of dice, one that spins on a corner, soaps that slide and roll down a slope, a row of
 // dominoes, and a throw of dice.
-void build_dice(World& world, std::uint64_t seed) {
+void build_dice(World& world, std::uint64_t seed, const SceneValues& values) {
   add_ground(world, 20_m);
   for (int i = 0; i < 5; ++i)
     add(world, loose(die(0.4_m), {-4_m, millimetres(400 + 800 * i), -2_m}));
@@ -45,7 +45,7 @@ void build_dice(World& world, std::uint64_t seed) {
     add(world, domino);
   }
   Random random(mix(seed));
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < values[0]; ++i) {
     const Length half = millimetres_long(random.between(120, 260));
     const std::int64_t x = random.between(-500, 500), z = random.between(-500, 500);
     BodyDef thrown =
@@ -75,7 +75,7 @@ std::vector<AssetPtr> pebbles(std::uint64_t /*seed*/) {
 }
 
 // A heap of pebbles between two walls, and stones that roll down a slope.
-void build_pebbles(World& world, std::uint64_t seed) {
+void build_pebbles(World& world, std::uint64_t seed, const SceneValues& values) {
   add_ground(world, 20_m);
   add(world, fixed_box({-1.2_m, 0.3_m, {}}, {0.2_m, 0.3_m, 1.4_m}));
   add(world, fixed_box({1.2_m, 0.3_m, {}}, {0.2_m, 0.3_m, 1.4_m}));
@@ -85,7 +85,7 @@ void build_pebbles(World& world, std::uint64_t seed) {
   const AssetSet set(pebbles(seed));  // the world's own may have those of other scenes too
   const std::span<const AssetPtr> kinds = set.all();
   Random random(mix(seed));
-  for (std::int64_t i = 0; i < 40; ++i) {
+  for (std::int64_t i = 0; i < values[0]; ++i) {
     const auto kind = static_cast<std::size_t>(i) % kinds.size();
     const std::int64_t x = random.between(-600, 600), z = random.between(-800, 800);
     const bool rolls = i % 5 == 4;
@@ -103,10 +103,15 @@ const Scene k_pebbles{.name = "pebbles",
                       .description = "hulls with rounded edges: a heap, and stones down a slope",
                       .golden_ticks = 240,
                       .define = small_world,
-                      .build = build_pebbles,
-                      .assets = pebbles};
+                      .builder = build_pebbles,
+                      .assets = pebbles,
+                      .own_parameters = {{{"stones", 40, 0, 400}}}};
 
-const Scene k_dice = {"dice", "dice with rounded edges: stacked, spinning, rolling, thrown", 240,
-                      small_world, build_dice};
+const Scene k_dice{.name = "dice",
+                   .description = "dice with rounded edges: stacked, spinning, rolling, thrown",
+                   .golden_ticks = 240,
+                   .define = small_world,
+                   .builder = build_dice,
+                   .own_parameters = {{{"thrown", 12, 0, 200}}}};
 
 }  // namespace lockstone::scenes

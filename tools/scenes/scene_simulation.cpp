@@ -8,15 +8,15 @@ namespace {
 constexpr std::size_t k_name_bytes = k_config_bytes - 14;
 
 World make_world(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase,
-                 std::uint32_t spare_bodies) {
-  WorldDef def = scene.define();
+                 std::uint32_t spare_bodies, const SceneValues& values) {
+  WorldDef def = define_scene(scene, values);
   def.broad_phase = broad_phase;
   def.body_capacity += spare_bodies;
   auto assets = std::make_shared<const AssetSet>(scene.assets == nullptr ? std::vector<AssetPtr>{}
                                                                          : scene.assets(seed));
   Result<World> world = World::create(def, std::move(assets));
   LKS_CHECK(world.ok());
-  scene.build(world.value(), seed);
+  scene.builder(world.value(), seed, values);
   return std::move(world).value();
 }
 
@@ -34,8 +34,11 @@ std::array<std::byte, k_config_bytes> encode_config(std::string_view name, std::
 }
 
 SceneSimulation::SceneSimulation(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase,
-                                 std::uint32_t spare_bodies)
-    : scene_(scene), seed_(seed), world_(make_world(scene, seed, broad_phase, spare_bodies)) {
+                                 std::uint32_t spare_bodies, std::span<const std::int32_t> values)
+    : scene_(scene),
+      seed_(seed),
+      world_(
+          make_world(scene, seed, broad_phase, spare_bodies, scene_values(scene, values).value())) {
   info_.abi = k_simulation_abi;
   info_.config_hash =
       hash64(encode_config(scene.name, seed), config_hash(world_.def(), world_.assets()->hash()));

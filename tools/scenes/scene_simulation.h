@@ -26,10 +26,10 @@ inline constexpr std::size_t k_config_bytes = 32;
 class SceneSimulation final : public Simulation {
  public:
   /// `spare_bodies`: room for more bodies than the scene asks for, which changes none of its
-  /// states.
+  /// states. `values`: some that scene_values takes.
   SceneSimulation(const Scene& scene, std::uint64_t seed,
-                  BroadPhaseKind broad_phase = BroadPhaseKind::tree,
-                  std::uint32_t spare_bodies = 0);
+                  BroadPhaseKind broad_phase = BroadPhaseKind::tree, std::uint32_t spare_bodies = 0,
+                  std::span<const std::int32_t> values = {});
 
   [[nodiscard]] SimulationInfo info() const override { return info_; }
   [[nodiscard]] std::uint64_t tick() const override { return world_.tick(); }

@@ -10,23 +10,22 @@ using namespace lockstone::literals;
 constexpr std::uint32_t k_floor_index = 1;
 constexpr std::uint32_t k_lift_index = 2;
 
-constexpr int k_towers = 6;
-constexpr int k_stacked = 4;
 constexpr std::uint64_t k_floor_goes = 70;
 constexpr std::uint64_t k_ball_comes = 100;
 constexpr std::uint64_t k_lift_starts = 130;
 constexpr std::uint64_t k_lift_stops = 160;
 
-void build_sleep(World& world, std::uint64_t) {
+void build_sleep(World& world, std::uint64_t, const SceneValues& values) {
+  const int towers = values[0], stacked = values[1];
   add_ground(world, 30_m);
   add(world, fixed_box({-12_m, 0.25_m, {}}, {1.5_m, 0.25_m, 1.5_m}));
   BodyDef lift = fixed_box({-8_m, 0.25_m, {}}, {1.5_m, 0.25_m, 1.5_m});
   lift.motion = MotionType::kinematic;
   add(world, lift);
-  add_stack(world, {-12_m, 0.5_m, {}}, k_stacked);
-  add_stack(world, {-8_m, 0.5_m, {}}, k_stacked);
-  for (int i = 0; i < k_towers; ++i)
-    add_stack(world, {millimetres(-4000 + 3000 * i), {}, {}}, k_stacked);
+  add_stack(world, {-12_m, 0.5_m, {}}, stacked);
+  add_stack(world, {-8_m, 0.5_m, {}}, stacked);
+  for (int i = 0; i < towers; ++i)
+    add_stack(world, {millimetres(-4000 + 3000 * i), {}, {}}, stacked);
 }
 
 void drive_sleep(World& world, std::uint64_t seed) {
@@ -57,8 +56,13 @@ void drive_sleep(World& world, std::uint64_t seed) {
 
 }  // namespace
 
-constinit const Scene k_sleep{"sleep",     "towers fall asleep; a floor, a ball, a lift wake them",
-                              300,         small_world,
-                              build_sleep, drive_sleep};
+constinit const Scene k_sleep{
+    .name = "sleep",
+    .description = "towers fall asleep; a floor, a ball, a lift wake them",
+    .golden_ticks = 300,
+    .define = small_world,
+    .builder = build_sleep,
+    .drive = drive_sleep,
+    .own_parameters = {{{"towers", 6, 1, 11}, {"boxes each", 4, 1, 20}}}};
 
 }  // namespace lockstone::scenes

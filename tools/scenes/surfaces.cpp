@@ -166,13 +166,13 @@ constinit const Scene k_terrain{.name = "terrain",
                                 .description = "40 bodies down a valley of ice and rock with holes",
                                 .golden_ticks = 300,
                                 .define = small_world,
-                                .build = build_terrain,
+                                .builder = build_terrain,
                                 .assets = terrain_assets};
 constinit const Scene k_mesh{.name = "mesh",
                              .description = "a bowl, stairs and a slide of triangles",
                              .golden_ticks = 300,
                              .define = small_world,
-                             .build = build_mesh,
+                             .builder = build_mesh,
                              .assets = mesh_assets};
 
 }  // namespace lockstone::scenes

@@ -115,7 +115,7 @@ constinit const Scene k_terrain_edit{
     .description = "craters under bodies at rest, a bank that rises, a hole that opens",
     .golden_ticks = 300,
     .define = terrain_edit_world,
-    .build = build_terrain_edit,
+    .builder = build_terrain_edit,
     .drive = drive_terrain_edit,
     .assets = terrain_edit_assets};
 

@@ -63,7 +63,7 @@ constinit const Scene k_trapdoors{
     .description = "panels of a floor open in turn under bodies at rest, and close",
     .golden_ticks = 300,
     .define = trapdoor_world,
-    .build = build_trapdoors,
+    .builder = build_trapdoors,
     .drive = drive_trapdoors,
     .assets = trapdoor_assets};
 

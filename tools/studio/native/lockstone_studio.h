@@ -13,9 +13,23 @@ extern "C" {
 /* Testbed ---------------------------------------------------------------------------------------
  */
 
-/* A built-in scene that takes actions, with room for more bodies. Until the first action its states
- * are those of the scene itself. */
-LKS_API lks_status lks_studio_scene(const char* name, uint64_t seed, lks_world** out);
+/* A built-in scene that takes actions, with room for more bodies. `values`: of its first
+ * parameters; the others have their usual ones. Until the first action its states are those of the
+ * scene itself. LKS_INVALID_ARGUMENT for a value out of its range. */
+LKS_API lks_status lks_studio_scene(const char* name, uint64_t seed, const int32_t* values,
+                                    uint32_t count, lks_world** out);
+
+/* A whole number that a scene can be made with. */
+typedef struct lks_studio_parameter {
+  const char* name; /* holds until the next call */
+  int32_t usual;
+  int32_t least;
+  int32_t most;
+} lks_studio_parameter;
+
+/* A parameter of a built-in scene, both by number. LKS_NOT_FOUND behind the last one. */
+LKS_API lks_status lks_studio_scene_parameter(uint32_t scene, uint32_t index,
+                                              lks_studio_parameter* out);
 
 /* The description of a built-in scene, terminated. */
 LKS_API const char* lks_studio_scene_text(uint32_t index);
@@ -92,7 +106,8 @@ LKS_API lks_status lks_studio_compare(const lks_world* a, const lks_world* b, lk
 
 enum { LKS_STUDIO_STAGES = 10 }; /* of a tick: StepStage of lockstone/profile.h */
 
-/* Begins to take the times of the world's stages by the page's clock. They are no part of its state. */
+/* Begins to take the times of the world's stages by the page's clock. They are no part of its
+ * state. */
 LKS_API lks_status lks_studio_watch_stages(lks_world* world);
 
 /* Microseconds that each stage took, summed over all steps since then. */
@@ -101,8 +116,8 @@ LKS_API lks_status lks_studio_stage_times(const lks_world* world, double* sums);
 /* Games that run elsewhere ----------------------------------------------------------------------
  */
 
-/* An empty world that takes the states of the one that a WorldServer (lockstone/watch/world_server.h)
- * describes by the message. */
+/* An empty world that takes the states of the one that a WorldServer
+ * (lockstone/watch/world_server.h) describes by the message. */
 LKS_API lks_status lks_studio_described_world(const void* bytes, size_t count, lks_world** out);
 
 /* Logs ------------------------------------------------------------------------------------------

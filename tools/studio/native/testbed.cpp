@@ -130,13 +130,19 @@ void act(World& world, const lks_studio_action& action) {
     throw_invalid("action.kind", "there is no such action");
 }
 
+const std::vector<scenes::SceneSummary>& all_scenes() {
+  static const std::vector<scenes::SceneSummary> list = scenes::list_scenes();
+  return list;
+}
+
 }  // namespace
 
-lks_status lks_studio_scene(const char* name, uint64_t seed, lks_world** out) {
+lks_status lks_studio_scene(const char* name, uint64_t seed, const int32_t* values, uint32_t count,
+                            lks_world** out) {
   return call([&] {
     required(out, "out");
-    auto scene =
-        scenes::make_play(&required(name, "name"), seed, BroadPhaseKind::tree, k_spare_bodies);
+    auto scene = scenes::make_play(&required(name, "name"), seed, BroadPhaseKind::tree,
+                                   k_spare_bodies, {values, count});
     if (!scene.ok()) throw_failure(scene.status());
     auto world = std::make_unique<lks_world>();
     world->scene = std::move(scene).value();
@@ -144,9 +150,21 @@ lks_status lks_studio_scene(const char* name, uint64_t seed, lks_world** out) {
   });
 }
 
+lks_status lks_studio_scene_parameter(uint32_t scene, uint32_t index, lks_studio_parameter* out) {
+  return call([&] {
+    const auto& list = all_scenes();
+    const auto parameters = scene < list.size() ? scenes::parameters_of(list[scene].name)
+                                                : std::vector<scenes::SceneParameter>{};
+    if (index >= parameters.size()) throw_failure(Status::not_found);
+    static std::string name;
+    const scenes::SceneParameter& one = parameters[index];
+    name = one.name;
+    required(out, "out") = {name.c_str(), one.usual, one.least, one.most};
+  });
+}
+
 const char* lks_studio_scene_text(uint32_t index) {
-  static const std::vector<scenes::SceneSummary> list = scenes::list_scenes();
-  return index < list.size() ? list[index].description.data() : "";
+  return index < all_scenes().size() ? all_scenes()[index].description.data() : "";
 }
 
 lks_status lks_studio_act(lks_world* world, const lks_studio_action* action) {

@@ -20,13 +20,17 @@ const FLOOR_SIZE = 400;
 const FIRST_ROOM = 16;
 // Facets of round forms: around, and from pole to pole. A processor pays for each corner twice, in the picture and in the shadow.
 const [AROUND, ALONG] = SOFTWARE ? [12, 8] : [24, 14];
+const [COARSE_AROUND, COARSE_ALONG] = [8, 6];
+const MANY = 100; // of one form: a processor draws them coarse
 
-function unitGeometry(kind: number): three.BufferGeometry {
-  switch (kind) {
-    case c.LKS_SPHERE: return new three.SphereGeometry(1, AROUND, ALONG);
-    case c.LKS_BOX: return new three.BoxGeometry(2, 2, 2);
-    case c.LKS_CYLINDER: return new three.CylinderGeometry(1, 1, 2, AROUND);
-    case c.LKS_CONE: return new three.ConeGeometry(1, 1, AROUND).translate(0, 0.25, 0);
+function unitGeometry(form: string, around: number, along: number): three.BufferGeometry {
+  switch (form) {
+    case formOf(c.LKS_SPHERE): return new three.SphereGeometry(1, around, along);
+    case formOf(c.LKS_BOX): return new three.BoxGeometry(2, 2, 2);
+    case formOf(c.LKS_CYLINDER): return new three.CylinderGeometry(1, 1, 2, around);
+    case formOf(c.LKS_CONE): return new three.ConeGeometry(1, 1, around).translate(0, 0.25, 0);
+    case CAP: return new three.SphereGeometry(1, around, along / 2, 0, 2 * Math.PI, 0, Math.PI / 2);
+    case TUBE: return new three.CylinderGeometry(1, 1, 2, around, 1, true);
     default: return new three.PlaneGeometry(FLOOR_SIZE, FLOOR_SIZE).rotateX(-Math.PI / 2);
   }
 }
@@ -54,13 +58,25 @@ function taperedGeometry(a: number, height: number, b: number): three.BufferGeom
   return new three.LatheGeometry(outline, AROUND);
 }
 
+/** The form of all bodies of a kind, whatever their size. */
+function formOf(kind: number): string {
+  return `form ${kind}`;
+}
+const CAP = "form cap", TUBE = "form tube"; // of capsules
+
+/** Whether nobody outside sees the inner side of its faces: they are not drawn then. */
+function isClosed(form: string): boolean {
+  return form.startsWith("form");
+}
+
 /** Meshes of one form; solid or transparent. */
 class Batch {
   mesh: three.InstancedMesh;
   private count = 0;
 
-  constructor(private readonly group: three.Group, geometry: three.BufferGeometry, private readonly material: three.Material,
-    private readonly shadow: boolean) {
+  /** `coarse`: for many of them. */
+  constructor(private readonly group: three.Group, private readonly geometry: three.BufferGeometry, private readonly coarse: three.BufferGeometry,
+    private readonly material: three.Material, private readonly shadow: boolean) {
     this.mesh = this.make(geometry, FIRST_ROOM);
   }
 
@@ -76,13 +92,15 @@ class Batch {
 
   finish(): void {
     this.mesh.count = this.count;
+    this.mesh.geometry = this.count > MANY ? this.coarse : this.geometry;
     this.mesh.instanceMatrix.needsUpdate = true;
     if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
   }
 
   dispose(): void {
     this.group.remove(this.mesh);
-    this.mesh.geometry.dispose();
+    this.geometry.dispose();
+    this.coarse.dispose();
     this.mesh.dispose();
   }
 
@@ -111,7 +129,9 @@ export class Bodies {
   private readonly batches = new Map<string, Batch>();
   private readonly outlines = new Map<string, Part[]>();
   private readonly geometries = new Map<string, three.BufferGeometry>();
-  private readonly solid = material(0.75, { flatShading: true, side: three.DoubleSide });
+  private readonly solid = material(0.75, { flatShading: true });
+  /** Of forms that may be seen from both sides. */
+  private readonly sheet = material(0.75, { flatShading: true, side: three.DoubleSide });
   private readonly clear = material(0.9, { transparent: true, opacity: 0.25, depthWrite: false });
   readonly floor = material(1, {});
 
@@ -140,6 +160,13 @@ export class Bodies {
     for (const batch of this.batches.values()) batch.finish();
   }
 
+  /** How many meshes the last update filled. */
+  get count(): number {
+    let sum = 0;
+    for (const { mesh } of this.batches.values()) sum += mesh.count;
+    return sum;
+  }
+
   dispose(): void {
     for (const batch of this.batches.values()) batch.dispose();
   }
@@ -149,8 +176,10 @@ export class Bodies {
     const key = `${kind} ${form}`;
     let batch = this.batches.get(key);
     if (!batch) {
-      const material = kind === "floor" ? this.floor : kind === "clear" ? this.clear : this.solid;
-      batch = new Batch(this.group, this.geometries.get(form)!, material, kind === "solid" || kind === "fixed");
+      const material = kind === "floor" ? this.floor : kind === "clear" ? this.clear : isClosed(form) ? this.solid : this.sheet;
+      const geometry = this.geometries.get(form)!;
+      const coarse = SOFTWARE && isClosed(form) ? unitGeometry(form, COARSE_AROUND, COARSE_ALONG) : geometry;
+      batch = new Batch(this.group, geometry, coarse, material, kind === "solid" || kind === "fixed");
       this.batches.set(key, batch);
     }
     return batch;
@@ -162,20 +191,33 @@ export class Bodies {
     let parts = this.outlines.get(key);
     if (!parts) {
       const outline = outlineOf(new Body(world, id));
-      parts = outline.parts.map((part) => this.partOf(part));
+      parts = outline.parts.flatMap((part) => (part.kind === c.LKS_CAPSULE ? this.capsuleOf(part) : [this.partOf(part)]));
       if (outline.triangles.length > 0) parts.push(this.trianglesOf(outline.triangles, mark));
       this.outlines.set(key, parts);
     }
     return parts;
   }
 
+  // Of a tube and two caps, the same for capsules of all sizes: a form of its own for each would be drawn by itself.
+  private capsuleOf({ size, place, axes }: OutlinePart): Part[] {
+    const [radius = 1, half = 1] = size;
+    const [x, y, z] = [0, 3, 6].map((i) => new three.Vector3().fromArray(axes, i)), centre = new three.Vector3().fromArray(place);
+    for (const form of [CAP, TUBE]) this.make(form, () => unitGeometry(form, AROUND, ALONG));
+    const part = (form: string, side: number, along: number, shift: number): Part => {
+      const [a, b, d] = [x!.clone().multiplyScalar(radius), y!.clone().multiplyScalar(side * along), z!.clone().multiplyScalar(side * radius)];
+      return { form, local: new three.Matrix4().makeBasis(a, b, d).setPosition(centre.clone().addScaledVector(y!, shift)) };
+    };
+    return [part(TUBE, 1, half, 0), part(CAP, 1, radius, half), part(CAP, -1, radius, -half)];
+  }
+
+  private make(form: string, geometry: () => three.BufferGeometry): void {
+    if (!this.geometries.has(form)) this.geometries.set(form, geometry());
+  }
+
   private partOf({ kind, size, place, axes }: OutlinePart): Part {
     const [x = 1, y = 1, z = 1] = size;
-    const form = kind === c.LKS_CAPSULE ? `capsule ${x} ${y}` : kind === c.LKS_TAPERED_CAPSULE ? `tapered ${x} ${y} ${z}` : kind === c.LKS_HALF_SPACE ? "floor" : `form ${kind}`;
-    if (!this.geometries.has(form)) {
-      this.geometries.set(form, kind === c.LKS_CAPSULE ? new three.CapsuleGeometry(x, 2 * y, ALONG / 2, AROUND)
-        : kind === c.LKS_TAPERED_CAPSULE ? taperedGeometry(x, y, z) : unitGeometry(kind));
-    }
+    const form = kind === c.LKS_TAPERED_CAPSULE ? `tapered ${x} ${y} ${z}` : kind === c.LKS_HALF_SPACE ? "floor" : formOf(kind);
+    this.make(form, () => (kind === c.LKS_TAPERED_CAPSULE ? taperedGeometry(x, y, z) : unitGeometry(form, AROUND, ALONG)));
     const scale = kind === c.LKS_SPHERE ? [x, x, x] : kind === c.LKS_BOX ? [x, y, z]
       : kind === c.LKS_CYLINDER || kind === c.LKS_CONE ? [x, y, x] : [1, 1, 1];
     const [a, b, d] = [0, 3, 6].map((i, k) => new three.Vector3().fromArray(axes, i).multiplyScalar(scale[k]!));
@@ -185,11 +227,11 @@ export class Bodies {
 
   private trianglesOf(triangles: Float32Array, mark: number): Part {
     const form = `triangles ${mark} ${triangles.length}`;
-    if (!this.geometries.has(form)) {
+    this.make(form, () => {
       const geometry = new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(triangles, 3));
       geometry.computeVertexNormals();
-      this.geometries.set(form, geometry);
-    }
+      return geometry;
+    });
     return { form, local: new three.Matrix4() };
   }
 }

@@ -5,7 +5,8 @@ import { World } from "../../web/src/world.js";
 
 /** Functions of tools/studio/native/lockstone_studio.h. */
 interface StudioFunctions {
-  lks_studio_scene(name: number, seed: bigint, out: number): number;
+  lks_studio_scene(name: number, seed: bigint, values: number, count: number, out: number): number;
+  lks_studio_scene_parameter(scene: number, index: number, out: number): number;
   lks_studio_scene_text(index: number): number;
   lks_studio_act(world: number, action: number): number;
   lks_studio_draw(world: number, wanted: number, lists: number): number;
@@ -34,6 +35,15 @@ export interface Figures {
   points: number;
   islands: number;
   joints: number;
+}
+
+/** A whole number that a scene can be made with. */
+export interface SceneParameter {
+  name: string;
+  /** In the scene of the golden hashes. */
+  usual: number;
+  least: number;
+  most: number;
 }
 
 /** Bits of `draw`, and the numbers that an item of each list has. */
@@ -76,10 +86,22 @@ export class Engine {
     return this.heap.text(this.f.lks_studio_scene_text(index));
   }
 
-  /** A scene that takes actions. */
-  scene(name: string, seed: bigint): World {
-    const { heap } = this;
-    heap.check(this.f.lks_studio_scene(heap.putText(name), seed, heap.output));
+  /** Of a scene by its name. */
+  sceneParameters(name: string): SceneParameter[] {
+    const { heap } = this, scene = this.sceneNames().indexOf(name);
+    const list: SceneParameter[] = [];
+    while (scene >= 0 && this.f.lks_studio_scene_parameter(scene, list.length, heap.output) === 0) {
+      const [usual, least, most] = heap.i32.subarray(heap.output / 4 + 1);
+      list.push({ name: heap.text(heap.getWord(heap.output)), usual: usual!, least: least!, most: most! });
+    }
+    return list;
+  }
+
+  /** A scene that takes actions. `values`: of its parameters, all or none. */
+  scene(name: string, seed: bigint, values: readonly number[]): World {
+    const { heap } = this, room = heap.output + 8;
+    heap.i32.set(values, room / 4);
+    heap.check(this.f.lks_studio_scene(heap.putText(name), seed, room, values.length, heap.output));
     return this.world(heap.getWord(heap.output));
   }
 

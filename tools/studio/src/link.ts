@@ -1,9 +1,12 @@
 // The address of what is seen: view, scene, seed, tick, all that was done, camera, overlays.
 import { type Action, actionOf, numbersOf } from "./action.js";
+import type { Values } from "./parameters.js";
 
 export interface Seen {
   scene: string;
   seed: bigint;
+  /** Of the scene's parameters, by name. */
+  values: Values;
   tick: number;
   /** Turn, rise, distance and target of the camera. */
   camera: number[];
@@ -49,6 +52,8 @@ function unpackJournal(text: string): Map<number, Action[]> {
 export function linkOf(seen: Seen): string {
   const parts = new URLSearchParams({ scene: seen.scene, seed: String(seen.seed), tick: String(seen.tick) });
   parts.set("camera", seen.camera.map((x) => x.toFixed(3)).join(","));
+  const values = Object.entries(seen.values);
+  if (values.length > 0) parts.set("with", values.map((one) => one.join(":")).join(","));
   if (seen.overlays.length > 0) parts.set("show", seen.overlays.join(","));
   parts.set("colour", seen.colour);
   if (seen.journal.size > 0) parts.set("did", packJournal(seen.journal));
@@ -61,7 +66,9 @@ export function seenOf(hash: string): Seen | null {
   const scene = parts.get("scene");
   if (!scene) return null;
   const whole = (name: string, fallback: string) => (/^\d+$/.test(parts.get(name) ?? "") ? parts.get(name)! : fallback);
+  const pairs = (parts.get("with") ?? "").split(",").map((one) => one.split(":"));
   return {
+    values: Object.fromEntries(pairs.filter(([, value]) => /^\d+$/.test(value ?? "")).map(([name, value]) => [name!, Number(value)])),
     scene, seed: BigInt(whole("seed", "1")), tick: Number(whole("tick", "0")),
     camera: (parts.get("camera") ?? "").split(",").filter(Boolean).map(Number),
     overlays: (parts.get("show") ?? "").split(",").filter(Boolean),

@@ -84,7 +84,7 @@ async function open(engine: Engine, session: Session, view: ViewName): Promise<v
   mode = null;
   transport.play(false);
   if (view === "testbed") {
-    const seen = seenOf(location.hash) ?? { scene: "wall", seed: 1n, tick: 0, camera: [], overlays: [], colour: "body", journal: new Map() };
+    const seen = seenOf(location.hash) ?? { scene: "wall", seed: 1n, values: {}, tick: 0, camera: [], overlays: [], colour: "body", journal: new Map() };
     mode = new Testbed(engine, picture, (on) => on !== transport.playing && transport.play(on), seen);
     transport.play(seen.tick === 0);
   } else if (view === "log") {
@@ -139,7 +139,7 @@ function frame(now: number): void {
   dueAt = now + (wanted ? SETTLE_MS : IDLE_MS);
   stirred = moves; // the tick that it stops at is drawn too
   const pulled = mode instanceof Testbed ? mode.pulled : null;
-  picture.draw(mode.dioramas, fraction ?? (sequence.runs ? 1 : transport.fraction), mode.shown, pulled);
+  picture.draw(mode.dioramas, fraction ?? (sequence.runs ? 1 : transport.fraction), mode.shown, pulled, (moves || fraction !== undefined) && !clip.runs && !sequence.runs);
   sequence.take(mode.lead.tick);
   mode.refresh();
   transport.refresh();

@@ -6,6 +6,7 @@ import { FIXED } from "./paint.js";
 import { OVERLAYS, Overlays, type Pin } from "./overlays.js";
 import { SOFTWARE } from "./software.js";
 import type { Stage } from "./stage.js";
+import { Thrift } from "./thrift.js";
 
 const LISTS: Record<string, number> = { contacts: Drawn.contacts, joints: Drawn.joints, bounds: Drawn.bounds, masses: Drawn.masses };
 
@@ -94,10 +95,12 @@ export class Picture {
   dark = false;
   private readonly background = new three.Color();
   private readonly floor = new three.Color();
+  private readonly thrift = new Thrift();
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new three.WebGLRenderer({ canvas, antialias: !SOFTWARE, preserveDrawingBuffer: true });
     this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.autoUpdate = false;
     this.renderer.setScissorTest(true);
   }
 
@@ -136,7 +139,9 @@ export class Picture {
     this.target.set(x!, y!, z);
   }
 
-  draw(dioramas: readonly Diorama[], fraction: number, shown: ReadonlySet<string>, pulled: three.Vector3[] | null): void {
+  /** `moves`: the next picture follows at once, so that this one may be plainer. */
+  draw(dioramas: readonly Diorama[], fraction: number, shown: ReadonlySet<string>, pulled: three.Vector3[] | null, moves: boolean): void {
+    this.thrift.next(moves, performance.now());
     this.resize();
     this.aim(dioramas.length);
     const { width, height } = this.size();
@@ -147,6 +152,7 @@ export class Picture {
       const share = width / dioramas.length;
       this.renderer.setViewport(i * share, 0, share, height);
       this.renderer.setScissor(i * share, 0, share - (i + 1 < dioramas.length ? 2 : 0), height);
+      this.renderer.shadowMap.needsUpdate = this.thrift.wantsShadows(diorama.bodies.count);
       this.renderer.render(diorama.scene, this.camera);
     });
   }
@@ -190,7 +196,9 @@ export class Picture {
   private resize(): void {
     const { width, height } = this.size();
     const now = this.renderer.getSize(new three.Vector2());
-    if (now.x !== width || now.y !== height) this.renderer.setSize(width, height, false);
+    if (now.x === width && now.y === height && this.renderer.getPixelRatio() === this.thrift.scale) return;
+    this.renderer.setPixelRatio(this.thrift.scale);
+    this.renderer.setSize(width, height, false);
   }
 
   private aim(parts: number): void {

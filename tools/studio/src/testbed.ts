@@ -7,10 +7,12 @@ import { type Action, pull, push, remove, spawn } from "./action.js";
 import { Chart } from "./charts.js";
 import { Facts, button, make, section, select } from "./dom.js";
 import type { Engine } from "./engine.js";
+import { HashChart } from "./hash_chart.js";
 import { type Seen, linkOf } from "./link.js";
 import type { Mode } from "./mode.js";
 import { OwnScene } from "./own_scene.js";
 import { COLOURINGS, type Colouring, painterOf } from "./paint.js";
+import { ParameterFields, type Values, valuesOf } from "./parameters.js";
 import { Diorama, type Picture } from "./picture.js";
 import { Selection } from "./selection.js";
 import { SWITCHES, showSection } from "./show.js";
@@ -42,6 +44,8 @@ export class Testbed implements Mode {
     islands: new Chart("Islands", "", "chart-islands"), ms: new Chart("Tick time", "ms", "chart-ms"),
   };
   private readonly stages = new StageChart();
+  private readonly hashes = new HashChart();
+  private readonly parameters = new ParameterFields((values) => this.change(this.lead.name, this.lead.seed, values));
   private readonly counts = new Facts("count", COUNTS);
   private readonly told = make("p", { id: "told" });
   private colour: Colouring;
@@ -53,7 +57,7 @@ export class Testbed implements Mode {
   constructor(private readonly engine: Engine, private readonly picture: Picture, private readonly play: (on: boolean) => void, seen: Seen) {
     this.shown = new Set(seen.overlays.length > 0 ? seen.overlays : ["triggers", "sleeping"]);
     this.colour = COLOURINGS.find((name) => name === seen.colour) ?? "body";
-    this.lead = this.open(seen.scene, seen.seed);
+    this.lead = this.open(seen.scene, seen.seed, seen.values);
     this.lead.replay(seen.journal, Math.min(seen.tick, 36_000), () => this.measure());
     if (seen.camera.length === 6) picture.pose = seen.camera;
     else if (seen.tick > 0) picture.frame(this.lead);
@@ -75,6 +79,7 @@ export class Testbed implements Mode {
     const { lead, charts } = this;
     for (const chart of Object.values(charts)) chart.draw(lead.tick, lead.last);
     this.stages.draw(lead.tick, lead.last);
+    this.hashes.draw(lead.hashes, lead.tick, lead.last);
     const figures = lead.figures();
     for (const name of COUNTS) this.counts.set(name, String(figures[name]));
     this.selection.refresh(lead.world, this.picture.target);
@@ -133,7 +138,7 @@ export class Testbed implements Mode {
   async openFile(file: File): Promise<void> {
     try {
       const own = new OwnScene(await file.text(), file.name);
-      this.change(own.name, 1n, own);
+      this.change(own.name, 1n, {}, own);
     } catch (error) {
       this.refused = error instanceof Error ? error.message : String(error);
     }
@@ -145,7 +150,7 @@ export class Testbed implements Mode {
     if (lead.own) return "";
     const before = new Map([...lead.journal].filter(([tick]) => tick < lead.tick));
     return linkOf({
-      scene: lead.name, seed: lead.seed, tick: lead.tick, camera: this.picture.pose, overlays: [...this.shown],
+      scene: lead.name, seed: lead.seed, values: this.unusual(), tick: lead.tick, camera: this.picture.pose, overlays: [...this.shown],
       colour: this.colour, journal: before,
     });
   }
@@ -155,8 +160,8 @@ export class Testbed implements Mode {
     for (const diorama of this.dioramas) diorama.dispose();
   }
 
-  private open(name: string, seed: bigint, own?: OwnScene): TestbedStage {
-    const stage = new TestbedStage(this.engine, name, seed, own);
+  private open(name: string, seed: bigint, values: Values, own?: OwnScene): TestbedStage {
+    const stage = new TestbedStage(this.engine, name, seed, valuesOf(this.engine.sceneParameters(name), values), own);
     for (const diorama of this.dioramas) diorama.dispose();
     const paint = painterOf(() => this.colour, () => this.shown.has("sleeping"), () => this.selection.row);
     this.dioramas = [new Diorama(stage, paint)];
@@ -166,9 +171,16 @@ export class Testbed implements Mode {
     return stage;
   }
 
-  private change(name: string, seed: bigint, own?: OwnScene): void {
+  /** The parameters that are not as usual. */
+  private unusual(): Values {
+    const { name, values } = this.lead;
+    const pairs = this.engine.sceneParameters(name).map((one, i): [string, number, number] => [one.name, values[i] ?? one.usual, one.usual]);
+    return Object.fromEntries(pairs.filter(([, value, usual]) => value !== usual));
+  }
+
+  private change(name: string, seed: bigint, values: Values = {}, own?: OwnScene): void {
     const old = this.lead;
-    this.lead = this.open(name, seed, own);
+    this.lead = this.open(name, seed, values, own);
     this.refused = "";
     old.destroy();
     this.tellScene();
@@ -241,6 +253,7 @@ export class Testbed implements Mode {
   private tellScene(): void {
     const text = this.part("scene-text"), list = this.part<HTMLSelectElement>("scene-name");
     const index = this.engine.sceneNames().indexOf(this.lead.name);
+    this.parameters.show(this.lead.own ? [] : this.engine.sceneParameters(this.lead.name), this.lead.values);
     if (list) list.value = this.lead.own ? "" : this.lead.name; // empty: any choice is a change
     if (text) text.textContent = this.lead.own ? `${this.lead.name}: a scene of your own` : this.engine.sceneText(index);
   }
@@ -254,10 +267,10 @@ export class Testbed implements Mode {
   private buildPanel(): void {
     const names = this.engine.sceneNames();
     const seed = make("input", { type: "number", id: "seed", min: "1", value: String(this.lead.seed) });
-    seed.onchange = () => this.change(this.lead.name, BigInt(Math.max(1, Math.trunc(Number(seed.value)) || 1)), this.lead.own);
+    seed.onchange = () => this.change(this.lead.name, BigInt(Math.max(1, Math.trunc(Number(seed.value)) || 1)), this.unusual(), this.lead.own);
     this.panel.append(
       section("Scene", select("scene-name", names, this.lead.name, (name) => this.change(name, this.lead.seed), "scene"),
-        make("label", { class: "field" }, make("span", {}, "seed"), seed), make("p", { id: "scene-text" }), this.fileOf()),
+        make("label", { class: "field" }, make("span", {}, "seed"), seed), this.parameters.element, make("p", { id: "scene-text" }), this.fileOf()),
       section("Hand", make("p", {}, "Drag a body to pull it; let go to throw it."),
         select("shape", Object.keys(SHAPES), this.shape, (name) => (this.shape = name as keyof typeof SHAPES), "shape"),
         make("div", { class: "row" }, button("Throw", "Throw one from the camera (F)", () => this.throwOne(), "throw"),
@@ -265,7 +278,7 @@ export class Testbed implements Mode {
           button("Push up", "Push the chosen body up (U)", () => this.pushChosen(), "push"),
           button("Remove", "Remove the chosen body (X)", () => this.removeChosen(), "remove")), this.told),
       showSection(this.shown, this.colour, (colour) => (this.colour = colour), NAMES),
-      section("Figures", make("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.element)), this.stages.element, this.counts.element),
+      section("Figures", make("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.element)), this.hashes.element, this.stages.element, this.counts.element),
       this.selection.element);
     this.tellScene();
   }

@@ -2,6 +2,7 @@
 // can be computed again, here or behind a link.
 import { type Action, putAction } from "./action.js";
 import type { Engine } from "./engine.js";
+import { HashRecord } from "./hash_chart.js";
 import { History, States } from "./history.js";
 import type { OwnScene } from "./own_scene.js";
 import { Stage } from "./stage.js";
@@ -19,17 +20,19 @@ export class TestbedStage extends Stage {
   /** ms of the last step, and of its stages in the order of STAGES. */
   stepMs = 0;
   stageMs: Float64Array;
+  readonly hashes = new HashRecord();
   private stageSums: Float64Array;
   private readonly states: States;
   private readonly history = new History(KEEP_EVERY);
 
   /** A built-in scene by its name, or one of a person's own. */
-  constructor(engine: Engine, readonly name: string, readonly seed: bigint, readonly own?: OwnScene) {
-    super(engine, own ? own.makeWorld(engine) : engine.scene(name, seed));
+  constructor(engine: Engine, readonly name: string, readonly seed: bigint, readonly values: readonly number[] = [], readonly own?: OwnScene) {
+    super(engine, own ? own.makeWorld(engine) : engine.scene(name, seed, values));
     engine.watchStages(this.world);
     this.stageSums = this.stageMs = engine.stageTimes(this.world);
     this.states = new States(this.world);
     this.keep();
+    this.hashes.put(0, this.hash);
   }
 
   /** Does something before the next step. A future that was played before is forgotten. */
@@ -59,6 +62,7 @@ export class TestbedStage extends Stage {
     this.stageMs = sums.map((sum, stage) => sum - this.stageSums[stage]!);
     this.stageSums = sums;
     this.last = Math.max(this.last, tick + 1);
+    this.hashes.put(tick + 1, this.hash);
     this.keep();
   }
 
@@ -81,6 +85,7 @@ export class TestbedStage extends Stage {
   private forgetFuture(tick: number): void {
     for (const at of [...this.journal.keys()]) if (at >= tick) this.journal.delete(at);
     this.history.cut(tick);
+    this.hashes.cut(tick);
     this.last = tick;
   }
 

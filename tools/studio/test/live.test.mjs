@@ -9,7 +9,7 @@ import { cleanUp, command, person, scratch, skip as noStudio, withPage, withStud
 
 after(cleanUp);
 
-const TICKS = 900;
+const TICKS = 1800;
 const skip = noStudio || (hostsBrowsers() ? false : "no native command with --ws");
 const MATCH = ["--players", "3", "--start-players", "2", "--spectators", "2", "--input-delay", "6", "--bodies", "30"];
 

@@ -151,6 +151,84 @@ test("the stages of a tick have times, and change no hash", { skip }, () => with
   assert.ok(colored > 10, `${colored} pixels`);
 })));
 
+test("a scene is made with other numbers, and its link makes it again", { skip }, () => withStudio([], (address) => withPage(`${address}#scene=stack&tick=0`, async (page) => {
+  const { frames, pause, press, state } = person(page);
+  const bodies = async () => (await frames(), Number(await page.textContent("#count-bodies")));
+  const enter = async (name, value) => {
+    await page.fill(`#parameter-${name}`, String(value));
+    await page.keyboard.press("Tab");
+    await pause();
+  };
+  await page.waitForSelector("#parameter-boxes");
+  assert.equal(await bodies(), 11);
+  assert.deepEqual(await Promise.all(["boxes", "substeps", "gravity"].map((name) => page.inputValue(`#parameter-${name}`))), ["10", "4", "981"]);
+  await enter("boxes", 20);
+  assert.equal(await bodies(), 21);
+  await enter("gravity", 162);
+  await page.focus("#picture");
+  while ((await state()).tick < 120) await press("ArrowRight");
+  const here = await state();
+  await press("l");
+  assert.match(page.url(), /with=boxes%3A20%2Cgravity%3A162&/);
+  const other = await page.context().newPage();
+  await other.goto(page.url());
+  await other.waitForFunction((tick) => document.getElementById("tick-text").textContent === `tick ${tick}`, here.tick);
+  assert.deepEqual(await person(other).state(), here);
+  assert.equal(await other.inputValue("#parameter-boxes"), "20");
+  await other.close();
+  // Back to the usual numbers, the scene has its golden hashes; a number out of its range is the nearest in it.
+  await enter("boxes", 10);
+  await enter("gravity", 981);
+  await page.focus("#picture");
+  while ((await state()).tick < 20) await press("ArrowRight");
+  await page.focus("#picture");
+  while ((await state()).tick > 20) await press("ArrowLeft");
+  assert.equal((await state()).hash, golden.stack.chain[1]);
+  await enter("boxes", 1000);
+  assert.equal(await bodies(), 41);
+  assert.equal(await page.inputValue("#parameter-boxes"), "40");
+  for (const [scene, names] of [["chain", ["links", "times-heavier"]], ["wall", ["rows"]], ["ragdoll", ["ragdolls"]], ["arena", []]]) {
+    await page.selectOption("#scene-name", scene);
+    await frames();
+    const shown = await page.$$eval("#parameters input", (inputs) => inputs.map((input) => input.id.replace("parameter-", "")));
+    assert.deepEqual(shown, scene === "arena" ? [] : [...names, "substeps", "gravity"]);
+  }
+})));
+
+test("the strip of hashes has a colour for each tick, green below it where the tick was computed again", { skip }, () => withStudio([], (address) => withPage(`${address}#scene=wall&tick=60`, async (page) => {
+  const { frames, press } = person(page);
+  await page.waitForFunction(() => document.getElementById("tick-text").textContent === "tick 60");
+  await page.focus("#picture");
+  await press("ArrowRight");
+  /** Different colours of the strip, and green pixels below it. */
+  const look = () => page.evaluate(() => {
+    const canvas = document.getElementById("chart-hash"), pen = canvas.getContext("2d");
+    const strip = pen.getImageData(0, 5, canvas.width, 1).data, below = pen.getImageData(0, canvas.height - 3, canvas.width, 1).data;
+    const colours = new Set();
+    let green = 0;
+    for (let i = 0; i < strip.length; i += 4) {
+      if (strip[i + 3] > 0) colours.add(strip.slice(i, i + 3).join());
+      if (below[i] < 100 && below[i + 1] > 120 && below[i + 2] < 140) ++green;
+    }
+    return { colours: colours.size, green };
+  });
+  await frames();
+  const once = await look();
+  assert.ok(once.colours > 15 && once.green === 0, JSON.stringify(once));
+  assert.equal(await page.textContent("#hash-verified"), "computed once");
+  await press("Shift+ArrowLeft");
+  for (let i = 0; i < 50; ++i) await page.keyboard.press("ArrowRight");
+  await frames();
+  const again = await look();
+  assert.ok(again.green > 15, JSON.stringify(again));
+  assert.equal(await page.textContent("#hash-verified"), "✓ computed again to tick 51");
+  // Another future has hashes of its own.
+  for (let i = 0; i < 20; ++i) await page.keyboard.press("ArrowLeft");
+  await page.click("#drop");
+  await page.waitForFunction(() => Number(document.getElementById("tick-text").textContent.split(" ")[1]) > 70);
+  assert.equal(await page.textContent("#hash-verified"), "✓ computed again to tick 31");
+})));
+
 test("a picture of every tick is saved, none left out", { skip }, () => withStudio([], (address) => withPage(`${address}#scene=wall&tick=20`, async (page) => {
   const { press } = person(page);
   await page.waitForFunction(() => document.getElementById("tick-text").textContent === "tick 20");
@@ -159,6 +237,7 @@ test("a picture of every tick is saved, none left out", { skip }, () => withStud
   assert.equal(await page.getAttribute("#sequence", "aria-pressed"), "true");
   await press("Space");
   await page.waitForFunction(() => Number(document.getElementById("tick-text").textContent.split(" ")[1]) >= 30);
+  const box = await page.evaluate(() => [document.getElementById("picture").width, document.getElementById("picture").height]);
   const [download] = await Promise.all([page.waitForEvent("download"), press("i")]);
   const archive = join(scratch, "sequence.zip");
   await download.saveAs(archive);
@@ -166,7 +245,6 @@ test("a picture of every tick is saved, none left out", { skip }, () => withStud
   const files = execFileSync("python3", ["-c", program, archive], { encoding: "utf8", maxBuffer: 1 << 28 }).trim().split("\n").map((line) => line.split(" "));
   assert.ok(files.length >= 10 && download.suggestedFilename() === `lockstone-${files.length}-ticks.zip`);
   assert.deepEqual(files.map(([name]) => name), files.map((_, i) => `tick-${String(20 + i).padStart(6, "0")}.png`));
-  const box = await page.evaluate(() => [document.getElementById("picture").width, document.getElementById("picture").height]);
   for (const [name, hex] of files) {
     const png = Buffer.from(hex, "hex");
     assert.equal(png.subarray(1, 4).toString(), "PNG", name);

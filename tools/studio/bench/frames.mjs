@@ -1,0 +1,66 @@
+// How many pictures a second the testbed draws while it plays a pile of 1,000 bodies, in headless Chromium, which draws by the
+// processor; and the processor time of each. Prints a row of a table for each run, and medians.
+//
+// usage: node frames.mjs [RUNS]
+import { execFileSync } from "node:child_process";
+import { readFileSync, readdirSync } from "node:fs";
+
+import { cleanUp, withPage, withStudio } from "../test/support.mjs";
+
+const RUNS = Number(process.argv[2] ?? 5), FRAMES = 120;
+const TICK_S = 1 / Number(execFileSync("getconf", ["CLK_TCK"], { encoding: "utf8" }));
+
+function median(numbers) {
+  return numbers.sort((a, b) => a - b)[numbers.length >> 1];
+}
+
+/** Processor time of all processes below one, s. */
+function processorTime(root) {
+  const parents = new Map(), times = new Map();
+  for (const name of readdirSync("/proc").filter((one) => /^\d+$/.test(one))) {
+    try {
+      const fields = readFileSync(`/proc/${name}/stat`, "utf8").replace(/^.*\) /s, "").split(" ");
+      parents.set(Number(name), Number(fields[1]));
+      times.set(Number(name), TICK_S * (Number(fields[11]) + Number(fields[12])));
+    } catch {
+      // It has ended.
+    }
+  }
+  const isBelow = (one) => one === root || (parents.has(one) && parents.get(one) !== 0 && isBelow(parents.get(one)));
+  return [...times].filter(([one]) => one !== root && isBelow(one)).reduce((sum, [, time]) => sum + time, 0);
+}
+
+/** Of the next FRAMES pictures: how many a second, the median time between two, ms, processor time and ticks of each. */
+async function measure(page) {
+  const before = processorTime(process.pid);
+  const { seconds, ticks, gaps } = await page.evaluate(async (frames) => {
+    const tick = () => Number(document.getElementById("tick-text").textContent.split(" ")[1]);
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    let last = await frame();
+    const [began, from] = [last, tick()], gaps = [];
+    for (let i = 0; i < frames; ++i) {
+      const now = await frame();
+      gaps.push(now - last);
+      last = now;
+    }
+    return { seconds: (last - began) / 1000, ticks: tick() - from, gaps };
+  }, FRAMES);
+  const used = processorTime(process.pid) - before;
+  return { rate: FRAMES / seconds, gap: median(gaps), used: (1000 * used) / FRAMES, ticks: ticks / FRAMES };
+}
+
+const rows = [];
+for (let run = 0; run < RUNS; ++run) {
+  await withStudio([], (address) => withPage(`${address}#scene=pile&with=layers:62&tick=60`, async (page) => {
+    await page.waitForFunction(() => document.getElementById("tick-text").textContent === "tick 60", null, { timeout: 120_000 });
+    await page.focus("#picture");
+    await page.keyboard.press("Space");
+    await page.waitForFunction(() => document.getElementById("tick-text").textContent !== "tick 60");
+    const bodies = await page.textContent("#count-bodies");
+    const row = await measure(page);
+    console.log(`${bodies} bodies: ${row.rate.toFixed(1)} frames a second, median gap ${row.gap.toFixed(0)} ms, ${row.used.toFixed(0)} ms of processor time a frame, ${row.ticks.toFixed(2)} ticks a frame`);
+    rows.push(row);
+  }));
+}
+console.log(`medians of ${RUNS}: ${median(rows.map((row) => row.rate)).toFixed(1)} frames a second, gap ${median(rows.map((row) => row.gap)).toFixed(0)} ms, ${median(rows.map((row) => row.used)).toFixed(0)} ms of processor time a frame`);
+cleanUp();

@@ -1,0 +1,39 @@
+// Plainer pictures while they move, where a processor draws: twenty a second of a thousand bodies, not five.
+import { SOFTWARE } from "./software.js";
+
+const WANTED_MS = 40; // between two pictures
+const LOOK_EVERY = 8; // pictures
+const LEAST_SCALE = 0.5;
+const SHADOWS_AT_ONCE = 200; // meshes whose shadows every picture draws anew
+
+/** Chooses the size of pictures by the time that they take, and how often shadows are drawn. */
+export class Thrift {
+  /** Pixels of the picture for one of the page, in each direction. */
+  scale = 1;
+  private pictures = 0;
+  private began = 0;
+
+  /** Before each picture; `moves`: another one follows at once. */
+  next(moves: boolean, now: number): void {
+    if (!SOFTWARE || !moves) {
+      this.pictures = 0;
+      this.scale = 1;
+      return;
+    }
+    if (this.pictures++ % LOOK_EVERY !== 0) return;
+    const each = (now - this.began) / LOOK_EVERY;
+    this.began = now;
+    if (this.pictures === 1) this.scale = this.kept;
+    else if (each > WANTED_MS) this.scale = Math.max(this.scale * 0.8, LEAST_SCALE);
+    else if (each < 0.5 * WANTED_MS) this.scale = Math.min(this.scale * 1.25, 1);
+    this.kept = this.scale;
+  }
+
+  /** Whether this picture draws the shadows of so many meshes anew. */
+  wantsShadows(meshes: number): boolean {
+    return this.pictures === 0 || this.pictures % Math.ceil(meshes / SHADOWS_AT_ONCE) === 0;
+  }
+
+  /** Of the last time that the picture moved. */
+  private kept = 1;
+}
