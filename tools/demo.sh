@@ -6,10 +6,10 @@
 #
 # Replaces demo.lks and demo.svg of the run before.
 #
-#   --play [--bots N] [--tabs N] [--port PORT]
+#   --play [--bots N] [--tabs N] [--port PORT] [--no-open]
 #             instead: a match of bots (3) with seats for browser tabs (2), played with the keyboard.
-#             Prints the pages' addresses; Ctrl-C ends it. Builds the npm package if there is none, by
-#             tools/web.sh: large
+#             Prints the pages' addresses and, where there is a display, opens the first one in your
+#             browser; Ctrl-C ends it. Builds the npm package if there is none, by tools/web.sh: large
 #
 # Missing Debian packages are installed first (as root or through sudo).
 

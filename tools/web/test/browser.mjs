@@ -19,7 +19,7 @@ export async function withPages(count, use) {
     const pages = await Promise.all(Array.from({ length: count }, () => context.newPage()));
     for (const page of pages) {
       page.origin = `http://127.0.0.1:${server.address().port}`;
-      page.on("pageerror", (error) => errors.push(String(error)));
+      page.on("pageerror", (error) => errors.push(error.stack ?? String(error)));
     }
     const result = await use(pages);
     if (errors.length > 0) throw new Error(errors.join("\n"));
