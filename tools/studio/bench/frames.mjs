@@ -1,5 +1,5 @@
-// How many pictures a second the testbed draws while it plays a pile of 1,000 bodies, in headless Chromium, which draws by the
-// processor; and the processor time of each. Prints a row of a table for each run, and medians.
+// How many pictures a second the testbed draws while it plays scenes of 1,000 bodies, in headless Chromium, which draws by the
+// processor; and the processor time of each. Prints medians.
 //
 // usage: node frames.mjs [RUNS]
 import { execFileSync } from "node:child_process";
@@ -7,7 +7,8 @@ import { readFileSync, readdirSync } from "node:fs";
 
 import { cleanUp, withPage, withStudio } from "../test/support.mjs";
 
-const RUNS = Number(process.argv[2] ?? 5), FRAMES = 120;
+const RUNS = Number(process.argv[2] ?? 5), WARM_UP = 30, FRAMES = 60;
+const SCENES = { wall: "scene=wall&with=rows:44&tick=1", pile: "scene=pile&with=layers:62&tick=60" };
 const TICK_S = 1 / Number(execFileSync("getconf", ["CLK_TCK"], { encoding: "utf8" }));
 
 function median(numbers) {
@@ -32,6 +33,9 @@ function processorTime(root) {
 
 /** Of the next FRAMES pictures: how many a second, the median time between two, ms, processor time and ticks of each. */
 async function measure(page) {
+  await page.evaluate(async (frames) => {
+    for (let i = 0; i < frames; ++i) await new Promise((done) => requestAnimationFrame(done));
+  }, WARM_UP);
   const before = processorTime(process.pid);
   const { seconds, ticks, gaps } = await page.evaluate(async (frames) => {
     const tick = () => Number(document.getElementById("tick-text").textContent.split(" ")[1]);
@@ -49,18 +53,21 @@ async function measure(page) {
   return { rate: FRAMES / seconds, gap: median(gaps), used: (1000 * used) / FRAMES, ticks: ticks / FRAMES };
 }
 
-const rows = [];
-for (let run = 0; run < RUNS; ++run) {
-  await withStudio([], (address) => withPage(`${address}#scene=pile&with=layers:62&tick=60`, async (page) => {
-    await page.waitForFunction(() => document.getElementById("tick-text").textContent === "tick 60", null, { timeout: 120_000 });
+async function run(fragment) {
+  return withStudio([], (address) => withPage(`${address}#${fragment}`, async (page) => {
+    const start = `tick ${/tick=(\d+)/.exec(fragment)[1]}`;
+    await page.waitForFunction((text) => document.getElementById("tick-text").textContent === text, start, { timeout: 120_000 });
     await page.focus("#picture");
     await page.keyboard.press("Space");
-    await page.waitForFunction(() => document.getElementById("tick-text").textContent !== "tick 60");
     const bodies = await page.textContent("#count-bodies");
-    const row = await measure(page);
-    console.log(`${bodies} bodies: ${row.rate.toFixed(1)} frames a second, median gap ${row.gap.toFixed(0)} ms, ${row.used.toFixed(0)} ms of processor time a frame, ${row.ticks.toFixed(2)} ticks a frame`);
-    rows.push(row);
+    return { bodies, ...(await measure(page)) };
   }));
 }
-console.log(`medians of ${RUNS}: ${median(rows.map((row) => row.rate)).toFixed(1)} frames a second, gap ${median(rows.map((row) => row.gap)).toFixed(0)} ms, ${median(rows.map((row) => row.used)).toFixed(0)} ms of processor time a frame`);
+
+for (const [name, fragment] of Object.entries(SCENES)) {
+  const rows = [];
+  for (let i = 0; i < RUNS; ++i) rows.push(await run(fragment));
+  const middle = (figure) => median(rows.map((row) => row[figure]));
+  console.log(`${name}, ${rows[0].bodies} bodies: ${middle("rate").toFixed(1)} frames a second, ${middle("used").toFixed(0)} ms of processor time and ${middle("ticks").toFixed(1)} ticks a frame (medians of ${RUNS})`);
+}
 cleanUp();

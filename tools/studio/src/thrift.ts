@@ -2,7 +2,7 @@
 import { SOFTWARE } from "./software.js";
 
 const WANTED_MS = 40; // between two pictures
-const LOOK_EVERY = 8; // pictures
+const LOOK_EVERY = 4; // pictures
 const LEAST_SCALE = 0.5;
 const SHADOWS_AT_ONCE = 200; // meshes whose shadows every picture draws anew
 
@@ -24,8 +24,8 @@ export class Thrift {
     const each = (now - this.began) / LOOK_EVERY;
     this.began = now;
     if (this.pictures === 1) this.scale = this.kept;
-    else if (each > WANTED_MS) this.scale = Math.max(this.scale * 0.8, LEAST_SCALE);
-    else if (each < 0.5 * WANTED_MS) this.scale = Math.min(this.scale * 1.25, 1);
+    else if (each > WANTED_MS) this.scale = Math.max(this.scale * Math.sqrt(WANTED_MS / each), LEAST_SCALE);
+    else if (each < 0.5 * WANTED_MS) this.scale = Math.min(1.25 * this.scale, 1);
     this.kept = this.scale;
   }
 
