@@ -129,7 +129,7 @@ export class Bodies {
   private readonly batches = new Map<string, Batch>();
   private readonly outlines = new Map<string, Part[]>();
   private readonly geometries = new Map<string, three.BufferGeometry>();
-  private readonly solid = material(0.75, { flatShading: true });
+  private readonly solid = material(0.75, { flatShading: true, shadowSide: three.FrontSide }); // inner sides would leave a gap at the ground
   /** Of forms that may be seen from both sides. */
   private readonly sheet = material(0.75, { flatShading: true, side: three.DoubleSide });
   private readonly clear = material(0.9, { transparent: true, opacity: 0.25, depthWrite: false });
