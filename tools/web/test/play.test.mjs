@@ -49,7 +49,7 @@ test("the host opens a seat where there is a display, and a page plays", { skip 
     await page.focus("#picture");
     const from = await (await page.waitForFunction(() => window.place())).jsonValue();
     await page.keyboard.down("w");
-    await page.waitForFunction(([x, , z]) => window.place() && Math.hypot(window.place()[0] - x, window.place()[2] - z) > 0.5, from);
+    await page.waitForFunction(([x, , z]) => window.place() && Math.hypot(window.place()[0] - x, window.place()[2] - z) > 0.2, from);
     await page.keyboard.up("w");
     assert.match(await page.textContent("#players"), /tab 0 · 1 bot 1 · 2 bot 2/);
   }));
