@@ -72,7 +72,7 @@ constinit const Scene k_moving_deck{
     .description = "a deck of triangles carries its cargo, turns and opens a hatch; a bowl rocks",
     .golden_ticks = 300,
     .define = deck_world,
-    .build = build_deck,
+    .builder = build_deck,
     .drive = drive_deck,
     .assets = deck_assets};
 
