@@ -334,7 +334,8 @@ TEST(HitEvents, AreTheSameOnEveryPath) {
     }
   }
   EXPECT_GE(hits, static_cast<std::size_t>(test::share_of(21)));
-  EXPECT_GE(persisting, static_cast<std::size_t>(test::share_of(240)));
+  EXPECT_GE(persisting,
+            static_cast<std::size_t>(test::share_of(60)));  // most come late, when bodies lie
 }
 
 }  // namespace
