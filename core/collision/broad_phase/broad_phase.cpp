@@ -196,8 +196,8 @@ bool BroadPhase::search(Emit&& emit) {
     const ProxyTraits& traits = proxies_[one].traits;
     const ProxyTraits& others = proxies_[other].traits;
     if (!can_meet(traits, others)) return true;
-    const bool in_order = leads(traits) == leads(others) ? one < other : leads(traits);
-    return emit(in_order ? Pair{one, other} : Pair{other, one});
+    const Pair pair{one, other};
+    return emit(is_in_order(pair, leads(traits), leads(others)) ? pair : Pair{other, one});
   };
   const auto run = [&](auto& search) {
     return search.search(touched_, proxies_, is_touched_, keep);

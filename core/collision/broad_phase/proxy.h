@@ -20,8 +20,7 @@ struct ProxyTraits {
   friend constexpr bool operator==(const ProxyTraits&, const ProxyTraits&) = default;
 };
 
-/// Whether the body comes first in pairs with those of which this is false; else the lower index
-/// does. Contacts have triangles on their second side.
+/// Whether the body leads in its pairs. Contacts have triangles on their second side.
 [[nodiscard]] constexpr bool leads(const ProxyTraits& body) {
   return body.moves && !body.is_surface;
 }

@@ -1,7 +1,6 @@
 #include "core/geometry/convex/compound_solid.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "core/geometry/convex/shape_properties.h"
 #include "core/geometry/convex/shape_traits.h"
@@ -132,9 +131,7 @@ Solid combined(Solids solids) {
     result.radius = max(result.radius, distance + solid.solid.radius);
     result.inner_radius = max(result.inner_radius, solid.solid.inner_radius - distance);
   }
-  result.scale_exponent =
-      static_cast<int>(std::bit_width(static_cast<std::uint32_t>(result.radius.raw) - 1)) -
-      Length::frac_bits;
+  result.scale_exponent = scale_exponent_of(result.radius);
   const PrincipalAxes principal =
       principal_axes(mean_tensor(solids, weights, centre, result.scale_exponent));
   result.axes = principal.axes;

@@ -33,9 +33,14 @@ Mass mass_of(const Shape& shape, Density density) {
   return geometry::traits_of(shape).mass(shape, density);
 }
 
+int scale_exponent_of(Length radius) {
+  LKS_ASSERT(radius.raw > 0);
+  return static_cast<int>(std::bit_width(static_cast<std::uint32_t>(radius.raw) - 1)) -
+         Length::frac_bits;
+}
+
 int scale_exponent(const Shape& shape) {
-  const auto radius = static_cast<std::uint32_t>(bounding_radius(shape).raw);
-  return static_cast<int>(std::bit_width(radius - 1)) - Length::frac_bits;
+  return scale_exponent_of(bounding_radius(shape));
 }
 
 Vec3<Unit> normalized_inertia(const Shape& shape) {

@@ -18,7 +18,10 @@ namespace lockstone {
 /// Mass of the shape at uniform `density`, correctly rounded up to 1e-9 relative, saturating.
 [[nodiscard]] Mass mass_of(const Shape& shape, Density density);
 
-/// The smallest k with 2^k m ≥ bounding_radius(shape); −10 … 10.
+/// The smallest k with 2^k m ≥ radius > 0.
+[[nodiscard]] int scale_exponent_of(Length radius);
+
+/// That of bounding_radius(shape); −10 … 10.
 [[nodiscard]] int scale_exponent(const Shape& shape);
 
 /// Principal moments of inertia of the solid, divided by mass and by the square of the scale 2^k:

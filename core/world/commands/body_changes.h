@@ -8,10 +8,10 @@
 
 namespace lockstone {
 
-/// Whether a body may become `changed`, which has another type of motion.
 /// The body with another motion.
 [[nodiscard]] BodyRecord with_motion(const World::Impl& world, std::uint32_t body,
                                      MotionType motion);
+/// Whether a body may become `changed`, which has another type of motion.
 [[nodiscard]] bool can_become(const World::Impl& world, std::uint32_t body,
                               const BodyRecord& changed);
 

@@ -145,10 +145,10 @@ void WorldData::refresh_bounds(std::uint32_t body) {
 }
 
 Pair WorldData::pair_of(std::uint32_t a, std::uint32_t b) const {
+  const Pair pair{a, b};
   const bool a_leads = leads(bodies[a], cache.asset(a));
   const bool b_leads = leads(bodies[b], cache.asset(b));
-  const bool swap = a_leads == b_leads ? a > b : b_leads;
-  return swap ? Pair{b, a} : Pair{a, b};
+  return is_in_order(pair, a_leads, b_leads) ? pair : Pair{b, a};
 }
 
 std::optional<Pair> WorldData::exempt_pair(const JointRecord& joint) const {

@@ -1,7 +1,6 @@
 #include "core/world/derived/quantities.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "core/collision/narrow_phase/placed_shape.h"
 #include "core/dynamics/body/inertia.h"
@@ -100,8 +99,7 @@ ShapeProperties properties_of(const Shape& shape, const geometry::AssetGeometry*
   ShapeProperties properties = properties_of(shape, asset);
   if (motion != MotionType::kinematic || has_solid(shape, asset)) return properties;
   properties.radius = max(bounding_radius(shape, asset), k_least);
-  const auto radius = static_cast<std::uint32_t>(properties.radius.raw);
-  properties.scale_exponent = static_cast<int>(std::bit_width(radius - 1)) - Length::frac_bits;
+  properties.scale_exponent = scale_exponent_of(properties.radius);
   return properties;
 }
 

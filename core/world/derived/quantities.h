@@ -65,8 +65,7 @@ struct ShapeProperties {
   return body.moves() && asset != nullptr && asset->solid() == nullptr;
 }
 
-/// Whether the body comes first in pairs with those of which this is false; else the lower index
-/// does.
+/// Whether the body leads in its pairs, as its proxy does.
 [[nodiscard]] inline bool leads(const BodyRecord& body, const geometry::AssetGeometry* asset) {
   return body.moves() && !is_surface(body, asset);
 }

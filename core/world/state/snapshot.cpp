@@ -193,14 +193,13 @@ bool is_valid_tile(const geometry::AssetGeometry& terrain, const TerrainTileReco
 
 Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b,
                 const AssetSet& assets) {
-  const auto comes_first = [&](const BodyRecord& body) {
+  const auto is_leading = [&](const BodyRecord& body) {
     const bool has_asset = body.moves() && is_asset(body.shape().kind);
     const Asset* asset = has_asset ? assets.find(body.shape().asset) : nullptr;
     return leads(body, geometry::geometry_of(asset));
   };
-  const bool a_first = comes_first(a), b_first = comes_first(b);
   const bool ordered = a.exists() && b.exists() && (a.moves() || b.moves()) &&
-                       (a_first == b_first ? record.body_a < record.body_b : a_first);
+                       is_in_order({record.body_a, record.body_b}, is_leading(a), is_leading(b));
   const bool known = (record.flags & ~k_all_contact_flags) == 0;
   const bool trigger = a.is_trigger() || b.is_trigger();
   const bool passes = record.is_passing() && !trigger && !record.is_touching();
