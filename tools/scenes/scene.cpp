@@ -16,9 +16,9 @@ std::int32_t gravity_of(const WorldDef& def) {
       raw::round_divide(std::int64_t{-100} * def.gravity.y.raw, Acceleration::from_integer(1).raw));
 }
 
-SceneValues usual_values(const Scene& scene) {
+SceneValues usual_values(std::span<const SceneParameter> parameters) {
   SceneValues values{};
-  std::ranges::transform(parameters_of(scene), values.begin(),
+  std::ranges::transform(parameters, values.begin(),
                          [](const SceneParameter& one) { return one.usual; });
   return values;
 }
@@ -39,7 +39,7 @@ std::span<const Scene> world_scenes() {
 }
 
 void Scene::build(World& world, std::uint64_t seed) const {
-  builder(world, seed, usual_values(*this));
+  builder(world, seed, usual_values(parameters_of(*this)));
 }
 
 std::vector<SceneParameter> parameters_of(const Scene& scene) {
@@ -55,7 +55,7 @@ std::vector<SceneParameter> parameters_of(const Scene& scene) {
 Result<SceneValues> scene_values(const Scene& scene, std::span<const std::int32_t> given) {
   const std::vector<SceneParameter> list = parameters_of(scene);
   if (given.size() > list.size()) return Status::invalid_argument;
-  SceneValues values = usual_values(scene);
+  SceneValues values = usual_values(list);
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i] < list[i].least || given[i] > list[i].most) return Status::invalid_argument;
     values[i] = given[i];
@@ -67,7 +67,7 @@ WorldDef define_scene(const Scene& scene, const SceneValues& values) {
   WorldDef def = scene.define();
   const std::vector<SceneParameter> list = parameters_of(scene);
   const std::size_t own = list.size() - 2;
-  const SceneValues usual = usual_values(scene);
+  const SceneValues usual = usual_values(list);
   if (!std::equal(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(own),
                   usual.begin())) {
     def.body_capacity = std::max(def.body_capacity, k_many_bodies);

@@ -17,23 +17,16 @@ constexpr std::uint64_t k_seed = 1;
 constexpr std::uint64_t k_walking = 1;  // user data of characters
 constexpr int k_row = 20, k_walkers = 200;
 
-const scenes::Scene& scene_named(std::string_view name) {
-  const scenes::Scene* const scene = scenes::find_scene(name);
-  LKS_CHECK(scene != nullptr);
-  return *scene;
-}
-
 World make_race(BroadPhaseKind broad_phase) {
-  const scenes::Scene& scene = scene_named("race");
-  WorldDef def = scene.define();
+  WorldDef def = scenes::k_race.define();
   def.broad_phase = broad_phase;
-  World world = make_speed_world(def, scene.assets(k_seed));
-  scene.build(world, k_seed);
+  World world = make_speed_world(def, scenes::k_race.assets(k_seed));
+  scenes::k_race.build(world, k_seed);
   return world;
 }
 
 void drive_racers(World& world) {
-  scene_named("race").drive(world, k_seed);
+  scenes::k_race.drive(world, k_seed);
 }
 
 // On 80 m by 80 m, with a crate beside every second one.
