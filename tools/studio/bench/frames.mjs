@@ -5,15 +5,12 @@
 import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync } from "node:fs";
 
+import { median } from "./median.mjs";
 import { cleanUp, withPage, withStudio } from "../test/support.mjs";
 
 const RUNS = Number(process.argv[2] ?? 5), WARM_UP = 30, FRAMES = 60;
 const SCENES = { wall: "scene=wall&with=rows:44&tick=1", pile: "scene=pile&with=layers:62&tick=60" };
 const TICK_S = 1 / Number(execFileSync("getconf", ["CLK_TCK"], { encoding: "utf8" }));
-
-function median(numbers) {
-  return numbers.sort((a, b) => a - b)[numbers.length >> 1];
-}
 
 /** Processor time of all processes below one, s. */
 function processorTime(root) {
@@ -31,26 +28,22 @@ function processorTime(root) {
   return [...times].filter(([one]) => one !== root && isBelow(one)).reduce((sum, [, time]) => sum + time, 0);
 }
 
-/** Of the next FRAMES pictures: how many a second, the median time between two, ms, processor time and ticks of each. */
+/** Of the next FRAMES pictures: how many a second, and processor time, ms, and ticks of each. */
 async function measure(page) {
   await page.evaluate(async (frames) => {
     for (let i = 0; i < frames; ++i) await new Promise((done) => requestAnimationFrame(done));
   }, WARM_UP);
   const before = processorTime(process.pid);
-  const { seconds, ticks, gaps } = await page.evaluate(async (frames) => {
+  const { seconds, ticks } = await page.evaluate(async (frames) => {
     const tick = () => Number(document.getElementById("tick-text").textContent.split(" ")[1]);
     const frame = () => new Promise((done) => requestAnimationFrame(done));
-    let last = await frame();
-    const [began, from] = [last, tick()], gaps = [];
-    for (let i = 0; i < frames; ++i) {
-      const now = await frame();
-      gaps.push(now - last);
-      last = now;
-    }
-    return { seconds: (last - began) / 1000, ticks: tick() - from, gaps };
+    const began = await frame(), from = tick();
+    let last = began;
+    for (let i = 0; i < frames; ++i) last = await frame();
+    return { seconds: (last - began) / 1000, ticks: tick() - from };
   }, FRAMES);
   const used = processorTime(process.pid) - before;
-  return { rate: FRAMES / seconds, gap: median(gaps), used: (1000 * used) / FRAMES, ticks: ticks / FRAMES };
+  return { rate: FRAMES / seconds, used: (1000 * used) / FRAMES, ticks: ticks / FRAMES };
 }
 
 async function run(fragment) {

@@ -1,13 +1,10 @@
 // How fast a log of ten minutes opens, and is scrubbed, in headless Chromium; prints rows of a table.
 //
 // usage: node long_log.mjs [TICKS]
+import { median } from "./median.mjs";
 import { cleanUp, record, withPage, withStudio } from "../test/support.mjs";
 
 const TICKS = Number(process.argv[2] ?? 36_000), SCRUBS = 31;
-
-function median(numbers) {
-  return numbers.sort((a, b) => a - b)[numbers.length >> 1];
-}
 
 /** Times of seeks to ticks that jump about, ms: of the first computation, until a picture is drawn, and until that of the exact tick is. */
 async function scrub(page, until) {
