@@ -1,5 +1,5 @@
 // Small charts of figures by tick.
-import { make } from "./dom.js";
+import { make, sheetOf } from "./dom.js";
 
 /** Values by tick, which may be written again after a rewind. */
 export class Series {
@@ -58,10 +58,9 @@ export class Chart {
   /** The ticks before and after `tick` that are known. */
   draw(tick: number, last: number): void {
     this.value.textContent = this.scale.text(this.series.at(tick));
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (width === 0) return;
-    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    const pen = this.canvas.getContext("2d")!;
+    const sheet = sheetOf(this.canvas);
+    if (!sheet) return;
+    const { pen, width, height } = sheet;
     const style = getComputedStyle(this.canvas);
     pen.clearRect(0, 0, width, height);
     const end = Math.max(Math.min(last, tick + this.ticks / 2), this.ticks), begin = end - this.ticks;

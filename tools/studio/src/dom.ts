@@ -43,6 +43,14 @@ export function section(title: string, ...children: Child[]): HTMLElement {
   return make("section", {}, make("h2", {}, title), ...children);
 }
 
+/** A canvas of as many pixels as the page gives it, to draw on; null: it is not shown. */
+export function sheetOf(canvas: HTMLCanvasElement): { pen: CanvasRenderingContext2D; width: number; height: number } | null {
+  const { clientWidth: width, clientHeight: height } = canvas;
+  if (width === 0) return null;
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  return { pen: canvas.getContext("2d")!, width, height };
+}
+
 /** Rows of a name and a value; `set` fills them. */
 export class Facts {
   readonly element = make("dl", { class: "facts" });

@@ -1,5 +1,5 @@
 // The hash of every tick as a colour, and how far ticks that were computed twice had the same one.
-import { make } from "./dom.js";
+import { make, sheetOf } from "./dom.js";
 
 const STRIP = 0.72; // of the height; below it the verdicts
 
@@ -52,10 +52,9 @@ export class HashChart {
   draw(record: HashRecord, tick: number, last: number): void {
     const { different, verified } = record;
     this.told.textContent = different !== null ? `✗ tick ${different} came to another hash` : verified > 0 ? `✓ computed again to tick ${verified}` : "computed once";
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (width === 0) return;
-    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    const pen = this.canvas.getContext("2d")!;
+    const sheet = sheetOf(this.canvas);
+    if (!sheet) return;
+    const { pen, width, height } = sheet;
     const style = getComputedStyle(this.canvas);
     const [good, bad, idle, mark] = ["--good", "--bad", "--idle", "--mark"].map((name) => style.getPropertyValue(name));
     pen.clearRect(0, 0, width, height);

@@ -1,6 +1,6 @@
 // The time of a tick's stages, one above another.
 import { Series } from "./charts.js";
-import { make } from "./dom.js";
+import { make, sheetOf } from "./dom.js";
 import { STAGES } from "./engine.js";
 
 type StageName = (typeof STAGES)[number];
@@ -43,10 +43,9 @@ export class StageChart {
   /** The ticks before and after `tick` that are known. */
   draw(tick: number, last: number): void {
     for (const { series, value } of this.parts) value.textContent = written(mean(series, tick));
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (width === 0) return;
-    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    const pen = this.canvas.getContext("2d")!;
+    const sheet = sheetOf(this.canvas);
+    if (!sheet) return;
+    const { pen, width, height } = sheet;
     pen.clearRect(0, 0, width, height);
     const end = Math.max(Math.min(last, tick + this.ticks / 2), this.ticks), begin = end - this.ticks;
     const most = this.most(begin, end);

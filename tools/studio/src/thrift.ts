@@ -10,6 +10,8 @@ const SHADOWS_AT_ONCE = 200; // meshes whose shadows every picture draws anew
 export class Thrift {
   /** Pixels of the picture for one of the page, in each direction. */
   scale = 1;
+  /** That of the last time that the picture moved. */
+  private kept = 1;
   private pictures = 0;
   private began = 0;
 
@@ -33,7 +35,4 @@ export class Thrift {
   wantsShadows(meshes: number): boolean {
     return this.pictures === 0 || this.pictures % Math.ceil(meshes / SHADOWS_AT_ONCE) === 0;
   }
-
-  /** Of the last time that the picture moved. */
-  private kept = 1;
 }
