@@ -1,10 +1,13 @@
 // Speed scenes in plain numbers play as the worlds that they were read from, and engines take turns
 // on them.
 #include <algorithm>
+#include <array>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/workload.h"
 #include "tools/bench/beside/beside_run.h"
 #include "tools/bench/beside/many_islands.h"
 #include "tools/bench/beside/scene_of_world.h"
@@ -56,8 +59,9 @@ std::vector<Triple> places_after(const GeneralScene& scene) {
 
 TEST(SceneOfWorld, PlaysAsTheWorldDoes) {
   constexpr int k_ticks = 3;
-  for (const char* name :
-       {"mixed-pile", "washer", "joint-grid", "junkyard", "ragdoll-rain", "figure-rain"}) {
+  constexpr std::array k_names{"joint-grid", "mixed-pile",   "washer",
+                               "junkyard",   "ragdoll-rain", "figure-rain"};
+  for (const char* name : std::span(k_names).first(test::share_of(k_names.size()))) {
     const SpeedScene& scene = *find_speed_scene(name);
     const SceneOfWorld plain = scene_of_world(scene, k_ticks);
     ASSERT_EQ(plain.lacking, "") << name;

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,6 +35,25 @@ void print_table(const std::vector<scenes::SceneSummary>& list) {
   }
 }
 
+// In the order of the catalogue. None, with a complaint, if a name is unknown.
+std::vector<scenes::SceneSummary> scenes_named(const std::vector<std::string>& names) {
+  std::vector<scenes::SceneSummary> list = scenes::list_scenes();
+  if (names.empty()) return list;
+  const auto is_in = [](const auto& range, std::string_view name) {
+    return std::ranges::any_of(range, [name](const auto& one) { return one == name; });
+  };
+  std::vector<std::string_view> known;
+  for (const scenes::SceneSummary& scene : list)
+    known.push_back(scene.name);
+  for (const std::string& name : names) {
+    if (is_in(known, name)) continue;
+    complain(fmt::format("no scene is named {}; `lockstone scenes` lists them", name));
+    return {};
+  }
+  std::erase_if(list, [&](const auto& scene) { return !is_in(names, scene.name); });
+  return list;
+}
+
 }  // namespace
 
 void add_scenes_command(CLI::App& app, int& exit_code) {
@@ -39,21 +61,26 @@ void add_scenes_command(CLI::App& app, int& exit_code) {
     bool json = false;
     bool force = false;
     std::string page;
+    std::vector<std::string> scenes;  // none: all
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
   command->add_flag("--json", options->json, "Print JSON");
   command->add_option("--page", options->page,
                       "Write a page with a picture of each scene instead: PAGE.md, PAGE/NAME.svg");
+  command->add_option("--scene", options->scenes, "Only these");
   add_force_option(*command, options->force);
   command->callback([options, &exit_code] {
-    if (!options->page.empty()) {
-      exit_code = write_scenes_page(options->page, options->force) ? k_ok : k_unavailable;
+    const std::vector<scenes::SceneSummary> list = scenes_named(options->scenes);
+    if (list.empty()) {
+      exit_code = k_usage;
       return;
     }
-    const std::vector<scenes::SceneSummary> list = scenes::list_scenes();
-    options->json ? print_json(list) : print_table(list);
     exit_code = k_ok;
+    if (!options->page.empty())
+      exit_code = write_scenes_page(list, options->page, options->force) ? k_ok : k_unavailable;
+    else
+      options->json ? print_json(list) : print_table(list);
   });
 }
 

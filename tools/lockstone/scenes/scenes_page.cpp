@@ -9,7 +9,6 @@
 
 #include "tools/lockstone/support/output_file.h"
 #include "tools/render/svg.h"
-#include "tools/scenes/play.h"
 
 namespace lockstone::tool {
 namespace {
@@ -49,13 +48,14 @@ constexpr std::string_view k_head =
 
 }  // namespace
 
-bool write_scenes_page(const std::string& path, bool force) {
+bool write_scenes_page(std::span<const scenes::SceneSummary> list, const std::string& path,
+                       bool force) {
   const std::filesystem::path page(path);
   const std::string folder = page.stem().string();
   std::error_code ignored;
   std::filesystem::create_directories(page.parent_path() / folder, ignored);
   std::string text(k_head);
-  for (const scenes::SceneSummary& scene : scenes::list_scenes()) {
+  for (const scenes::SceneSummary& scene : list) {
     const std::filesystem::path picture =
         page.parent_path() / folder / (std::string(scene.name) + ".svg");
     if (!write_text_file({picture.string(), force}, picture_of(scene))) return false;
