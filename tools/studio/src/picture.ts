@@ -157,6 +157,11 @@ export class Picture {
     });
   }
 
+  /** Whether the figures and charts beside the picture are due with the last one drawn. */
+  get wantsFigures(): boolean {
+    return this.thrift.wantsFigures;
+  }
+
   /** The ray through a point of the canvas; both halves have the same camera. */
   ray(x: number, y: number, parts = 1): three.Ray {
     const { width, height } = this.size();

@@ -3,10 +3,11 @@ import { SOFTWARE } from "./software.js";
 
 const WANTED_MS = 40; // between two pictures
 const LOOK_EVERY = 4; // pictures
-const LEAST_SCALE = 0.5;
-const SHADOWS_AT_ONCE = 200; // meshes whose shadows every picture draws anew
+const LEAST_SCALE = 0.3;
+const SHADOWS_AT_ONCE = 150; // meshes whose shadows every picture draws anew
+const FIGURES_EVERY = 8; // pictures: figures and charts cost a third of the page's own time
 
-/** Chooses the size of pictures by the time that they take, and how often shadows are drawn. */
+/** Chooses the size of pictures by the time that they take, and how often shadows and figures are drawn. */
 export class Thrift {
   /** Pixels of the picture for one of the page, in each direction. */
   scale = 1;
@@ -29,6 +30,11 @@ export class Thrift {
     else if (each > WANTED_MS) this.scale = Math.max(this.scale * Math.sqrt(WANTED_MS / each), LEAST_SCALE);
     else if (each < 0.5 * WANTED_MS) this.scale = Math.min(1.25 * this.scale, 1);
     this.kept = this.scale;
+  }
+
+  /** Whether figures and charts are drawn with this picture. */
+  get wantsFigures(): boolean {
+    return this.pictures % FIGURES_EVERY === 0;
   }
 
   /** Whether this picture draws the shadows of so many meshes anew. */
