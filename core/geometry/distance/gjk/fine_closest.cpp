@@ -16,9 +16,7 @@ constexpr int k_max_steps = 32;
 struct Candidate {
   bool is_within = false;
   Simplex simplex{};
-  RawVec normal{};          ///< from the origin to the point, of any length
-  RawVec direction{};       ///< the normal, its lanes truncated to 61 bits
-  std::int64_t length = 0;  ///< of the direction
+  RawVec normal{};  ///< from the origin to the point, of any length
   Fine distance = 0;
   FineFeatures features{};
 };
@@ -54,24 +52,15 @@ Candidate span_of(const Simplex& all, const FineVertices& vertices, unsigned mas
   return span;
 }
 
-/// `length`: of the normal.
-void set_normal(Candidate& span, const RawVec& normal, std::int64_t length) {
-  span.normal = normal;
-  span.direction = truncated(normal, 61);
-  const RawVec& d = span.direction;
-  span.length = d == normal ? length : static_cast<std::int64_t>(norm(d.x, d.y, d.z));
-  span.is_within = true;
-}
-
 void find_on_vertex_or_edge(Candidate& span) {
   FineFeatures& features = span.features;
   if (features.count == 2) {
     weigh_edge(features);
     if (features.weight[1] == 0 || features.weight[1] == k_whole) return;
   }
-  const RawVec normal = blend(features, features.difference);
-  span.distance = static_cast<Fine>(norm(normal.x, normal.y, normal.z));
-  set_normal(span, normal, span.distance);
+  span.normal = blend(features, features.difference);
+  span.distance = static_cast<Fine>(norm(span.normal.x, span.normal.y, span.normal.z));
+  span.is_within = true;
 }
 
 void find_on_triangle(Candidate& span) {
@@ -87,19 +76,27 @@ void find_on_triangle(Candidate& span) {
     distance = -distance;
   }
   if (!weigh_foot(features, scaled_by_ratio(normal, distance, length), normal)) return;
+  span.normal = normal;
   span.distance = distance;
-  set_normal(span, normal, length);
+  span.is_within = true;
+}
+
+/// Of the direction's length.
+Fine height_along(const RawVec& direction, const Int128& product) {
+  return round_divide(product,
+                      static_cast<std::int64_t>(norm(direction.x, direction.y, direction.z)));
 }
 
 /// The least height of vertices along a candidate's normal: that of the nearest point only for the
 /// candidate that holds it, and less for all others.
-Fine least_height(const Simplex& all, const FineVertices& vertices, const Candidate& candidate) {
+Fine least_height(const Simplex& all, const FineVertices& vertices, const RawVec& normal) {
+  const RawVec direction = truncated(normal, 61);
   Int128 least{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(all.count); ++i) {
-    const Int128 product = wide_dot(candidate.direction, vertices.b[i] - vertices.a[i]);
+    const Int128 product = wide_dot(direction, vertices.b[i] - vertices.a[i]);
     if (i == 0 || product < least) least = product;
   }
-  return round_divide(least, candidate.length);
+  return height_along(direction, least);
 }
 
 /// The nearest points and the highest plane met so far: bounds of the distance from both sides.
@@ -133,7 +130,7 @@ Candidate nearest_of(const FinePair& pair, const Simplex& all, Bounds& bounds) {
     candidate.simplex.count == 3 ? find_on_triangle(candidate) : find_on_vertex_or_edge(candidate);
     if (!candidate.is_within || candidate.normal == RawVec{}) continue;
     bounds.take_points(candidate);
-    const Fine height = least_height(all, vertices, candidate);
+    const Fine height = least_height(all, vertices, candidate.normal);
     if (height <= highest) continue;
     best = candidate;
     highest = height;
@@ -167,12 +164,11 @@ struct LeastVertex {
   Fine height = 0;  ///< along the direction
 };
 
-LeastVertex least_vertex(const FinePair& pair, const Candidate& candidate) {
-  const RawVec& direction = candidate.direction;
+LeastVertex least_vertex(const FinePair& pair, const RawVec& direction) {
   const Extreme a = greatest_along(pair.a, direction);
   const Extreme b = greatest_along(pair.b, -direction);
   const Int128 product = wide_dot(direction, pair.offset) - a.product - b.product;
-  return {{{}, a.vertex, b.vertex}, round_divide(product, candidate.length)};
+  return {{{}, a.vertex, b.vertex}, height_along(direction, product)};
 }
 
 bool has(const Simplex& simplex, const DifferenceVertex& vertex) {
@@ -208,7 +204,7 @@ FineClosest fine_closest(const FinePair& pair, const Simplex& start) {
   for (int step = 0; step < k_max_steps; ++step) {
     const Candidate candidate = nearest_of(pair, simplex, bounds);
     if (!candidate.is_within) break;
-    const LeastVertex least = least_vertex(pair, candidate);
+    const LeastVertex least = least_vertex(pair, truncated(candidate.normal, 61));
     if (least.height >= candidate.distance - k_proof) return proven(candidate);
     bounds.take_plane(candidate.normal, least.height);
     if (has(candidate.simplex, least.vertex)) break;
