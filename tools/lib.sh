@@ -25,11 +25,15 @@ packages_of() {
   done
 }
 
-# missing_of PACKAGE…: those that dpkg does not know as installed.
+# missing_of PACKAGE…: those that dpkg does not know as installed, for this machine's architecture or the
+# one that is named. Others may be installed beside it.
 missing_of() {
-  local package
+  local package architecture
   for package in "$@"; do
-    [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || echo "$package"
+    architecture=$(dpkg --print-architecture)
+    [[ $package != *:* ]] || architecture=${package#*:}
+    dpkg-query -W -f='${db:Status-Status} ${Architecture}\n' "$package" 2>/dev/null |
+      grep -qE "^installed ($architecture|all)$" || echo "$package"
   done
 }
 

@@ -82,7 +82,8 @@ build_emulated() {
   require_packages cross
   dpkg --print-foreign-architectures | grep -qx arm64 || as_root dpkg --add-architecture arm64
   require_packages web-emulated
-  cmake --preset aarch64 -B "$out/aarch64" >/dev/null
+  cmake --preset aarch64 -B "$out/aarch64" -DLOCKSTONE_WITH_SODIUM=ON \
+    -DSodium_LIBRARY=/usr/lib/aarch64-linux-gnu/libsodium.a >/dev/null
   cmake --build "$out/aarch64" --target lockstone_stdio_client
   export LOCKSTONE_EMULATED="qemu-aarch64 -L /usr/aarch64-linux-gnu $out/aarch64/tools/lockstone_stdio_client"
 }
