@@ -28,9 +28,10 @@ packages_of() {
 # missing_of PACKAGE…: those that dpkg does not know as installed, for this machine's architecture or the
 # one that is named. Others may be installed beside it.
 missing_of() {
-  local package architecture
+  local package architecture native
+  native=$(dpkg --print-architecture)
   for package in "$@"; do
-    architecture=$(dpkg --print-architecture)
+    architecture=$native
     [[ $package != *:* ]] || architecture=${package#*:}
     dpkg-query -W -f='${db:Status-Status} ${Architecture}\n' "$package" 2>/dev/null |
       grep -qE "^installed ($architecture|all)$" || echo "$package"

@@ -141,7 +141,7 @@ function frame(now: number): void {
   const pulled = mode instanceof Testbed ? mode.pulled : null;
   picture.draw(mode.dioramas, fraction ?? (sequence.runs ? 1 : transport.fraction), mode.shown, pulled, (moves || fraction !== undefined) && !clip.runs && !sequence.runs);
   sequence.take(mode.lead.tick);
-  if (picture.wantsFigures) mode.refresh();
+  mode.refresh(picture.wantsFigures);
   transport.refresh();
   byId("tick-text").textContent = `tick ${mode.lead.tick}${mode.goal ? ` … ${mode.goal}` : ""}`;
   byId("hash-text").textContent = mode.lead.hash;

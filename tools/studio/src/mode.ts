@@ -21,8 +21,8 @@ export interface Mode {
   readonly goal?: number | null;
   step(): void;
   seek(tick: number): void;
-  /** Once a frame, after the picture. */
-  refresh(): void;
+  /** Once a frame, after the picture. Not every picture wants figures and charts. */
+  refresh(wantsFigures: boolean): void;
   /** A body was clicked; null: none. `part`: which half of the picture. */
   choose(hit: Hit | null, part: number): void;
   /** Takes a body at the point of the hit; false: it cannot be pulled. */

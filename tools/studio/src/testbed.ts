@@ -75,7 +75,8 @@ export class Testbed implements Mode {
     this.lead.seek(tick);
   }
 
-  refresh(): void {
+  refresh(wantsFigures: boolean): void {
+    if (!wantsFigures) return;
     const { lead, charts } = this;
     for (const chart of Object.values(charts)) chart.draw(lead.tick, lead.last);
     this.stages.draw(lead.tick, lead.last);
