@@ -39,18 +39,13 @@ void print_table(const std::vector<scenes::SceneSummary>& list) {
 std::vector<scenes::SceneSummary> scenes_named(const std::vector<std::string>& names) {
   std::vector<scenes::SceneSummary> list = scenes::list_scenes();
   if (names.empty()) return list;
-  const auto is_in = [](const auto& range, std::string_view name) {
-    return std::ranges::any_of(range, [name](const auto& one) { return one == name; });
-  };
-  std::vector<std::string_view> known;
-  for (const scenes::SceneSummary& scene : list)
-    known.push_back(scene.name);
   for (const std::string& name : names) {
-    if (is_in(known, name)) continue;
+    if (std::ranges::find(list, name, &scenes::SceneSummary::name) != list.end()) continue;
     complain(fmt::format("no scene is named {}; `lockstone scenes` lists them", name));
     return {};
   }
-  std::erase_if(list, [&](const auto& scene) { return !is_in(names, scene.name); });
+  std::erase_if(
+      list, [&](const auto& scene) { return std::ranges::find(names, scene.name) == names.end(); });
   return list;
 }
 
