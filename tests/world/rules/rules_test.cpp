@@ -242,8 +242,8 @@ TEST_P(OneWayShapes, JumpThroughFromBelowAndLand) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, OneWayShapes,
                          ::testing::Values(Shape::box(0.5_m, 0.5_m, 0.5_m), Shape::sphere(0.5_m),
-                                         Shape::capsule(0.25_m, 0.25_m),
-                                         Shape::cylinder(0.5_m, 0.5_m)));
+                                           Shape::capsule(0.25_m, 0.25_m),
+                                           Shape::cylinder(0.5_m, 0.5_m)));
 
 TEST(OneWayBodies, DoNotCatchABodyThatTurnsBackInside) {
   World world = empty();
@@ -258,6 +258,18 @@ TEST(OneWayBodies, DoNotCatchABodyThatTurnsBackInside) {
   }
   EXPECT_NEAR(highest, 0, 0.02);
   EXPECT_LT(height(world, body), -5);
+}
+
+// Displacement ends at 128 m, and its least value has no opposite.
+TEST(OneWayBodies, LetABodyPassThatBeginsDeeperThanSeparationsReach) {
+  World world = empty();
+  BodyDef block = floor();
+  block.shape = Shape::box(400_m, 400_m, 400_m);
+  const BodyHandle ground = test::add(world, block);
+  EXPECT_EQ(world.apply(SetOneWay{ground, {.direction = k_up}}), Status::ok);
+  const BodyHandle body = test::add(world, box_at({}, 200_m));
+  test::step(world, 60);
+  EXPECT_NEAR(height(world, body), 200 - k_gravity / 2, 0.1);
 }
 
 TEST(OneWayBodies, StopFastBodiesFromTheFrontAlone) {

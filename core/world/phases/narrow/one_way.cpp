@@ -12,10 +12,12 @@
 namespace lockstone {
 namespace {
 
+// The least separation of all, Displacement::min(), has no opposite.
 Displacement depth_of(const Manifold& manifold) {
   LKS_ASSERT(manifold.count > 0);
   const auto points = std::span(manifold.points).first(static_cast<std::size_t>(manifold.count));
-  return -std::ranges::min_element(points, {}, &ManifoldPoint::separation)->separation;
+  const auto deepest = std::ranges::min_element(points, {}, &ManifoldPoint::separation);
+  return -max(deepest->separation, -Displacement::max());
 }
 
 // How deep a pair may be that is stopped, as it was a tick ago.
