@@ -34,11 +34,24 @@ inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_
   return x < bound && x > -bound;
 }
 
+/// Impulses that change no component of a velocity by more give little energy: 1/4 m/s.
+inline constexpr std::int64_t k_soft_push = std::int64_t{1} << (lanes::k_velocity_bits - 2);
+
 /// Whether all components of its motion are.
 [[nodiscard]] inline bool is_below(const lanes::BodyVelocity& row, std::int64_t bound) {
   return is_below(row.velocity[0], bound) && is_below(row.velocity[1], bound) &&
          is_below(row.velocity[2], bound) && is_below(row.spin[0], bound) &&
          is_below(row.spin[1], bound) && is_below(row.spin[2], bound);
+}
+
+[[nodiscard]] inline lanes::BodyVelocity difference(const lanes::BodyVelocity& a,
+                                                    const lanes::BodyVelocity& b) {
+  lanes::BodyVelocity result = a;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.velocity[axis] -= b.velocity[axis];
+    result.spin[axis] -= b.spin[axis];
+  }
+  return result;
 }
 
 /// A body that only trembles counts as still.

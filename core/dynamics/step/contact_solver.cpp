@@ -155,6 +155,11 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return energy_limit_.note(energy_bodies());
     case StageKind::velocities:
       return bodies_.integrate_velocities(stage.substep == 0, first, end);
+    case StageKind::note_pushes:
+      return bodies_.note_hard_pushes(first, end);
+    case StageKind::limit_repeats:
+    case StageKind::limit_gains:
+      return warm_start_.limit_gains(constraints_.run());
     case StageKind::warm_joints:
       return joints.warm_start(joints_.run(), first, end);
     case StageKind::first_impacts:

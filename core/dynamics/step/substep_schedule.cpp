@@ -16,9 +16,9 @@ constexpr std::uint32_t k_one_grain = 1;
 // Coloured ball joints converge slowly: iterations before positions move, and after.
 constexpr int k_ball_passes = 2;
 
-// Loops of a substep: fourteen of bodies, joints, islands and energies; the colours of contacts
+// Loops of a substep: eighteen of bodies, joints, islands and energies; the colours of contacts
 // twice, of coloured ball joints four times.
-constexpr std::size_t k_most_substep_loops = 14 + 6 * (k_graph_colors + 1);
+constexpr std::size_t k_most_substep_loops = 18 + 6 * (k_graph_colors + 1);
 
 }  // namespace
 
@@ -62,6 +62,7 @@ void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   LKS_ASSERT(substep < substeps());
   add_serial(StageKind::note_energies, work.watches_energy);
   add({StageKind::velocities, 0, substep}, work.bodies, k_body_grain);
+  if (work.iterates && substep != 0) add_gain_limit(StageKind::limit_repeats, work);
   add({StageKind::warm_joints}, work.clusters, k_one_grain);
   add_serial(StageKind::first_impacts, work.has_impacts);
   if (work.iterates) add_contacts(StageKind::solve, work);
@@ -79,6 +80,7 @@ void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   add_serial(StageKind::impacts, work.has_impacts);
   add_contacts(StageKind::relax, work, substep);
   add({StageKind::relax_islands}, work.converged, k_one_grain);
+  if (work.iterates) add_gain_limit(StageKind::limit_gains, work);
   add_serial(StageKind::limit_energies, work.watches_energy);
   add_serial(StageKind::note_impulses, work.watches_impulses);
 }
@@ -97,6 +99,12 @@ void SubstepSchedule::add(Stage stage, std::uint32_t count, std::uint32_t grain)
 
 void SubstepSchedule::add_serial(StageKind kind, bool is_due) {
   add({kind}, is_due ? 1 : 0, k_one_grain);
+}
+
+// The limit looks at islands one by one, only once a body was pushed hard.
+void SubstepSchedule::add_gain_limit(StageKind kind, const TickWork& work) {
+  add({StageKind::note_pushes}, work.bodies, k_body_grain);
+  add_serial(kind, true);
 }
 
 // The overflow is one piece, which is solved one by one.

@@ -21,6 +21,8 @@ enum class StageKind : std::uint8_t {
   fill_contacts,
   note_energies,
   velocities,
+  note_pushes,
+  limit_repeats,
   warm_joints,
   first_impacts,
   solve,
@@ -36,6 +38,7 @@ enum class StageKind : std::uint8_t {
   impacts,
   relax,
   relax_islands,
+  limit_gains,
   limit_energies,
   note_impulses,
   end_islands,
@@ -99,6 +102,7 @@ class SubstepSchedule {
   void plan_substep(const TickWork& work, std::uint8_t substep);
   void add(Stage stage, std::uint32_t count, std::uint32_t grain);
   void add_serial(StageKind kind, bool is_due);
+  void add_gain_limit(StageKind kind, const TickWork& work);
   void add_colors(Stage stage, const BlockCounts& counts);
   void add_contacts(StageKind kind, const TickWork& work, std::uint8_t substep = 0);
   void add_balls(StageKind kind, const TickWork& work);

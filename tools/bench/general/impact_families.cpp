@@ -104,6 +104,54 @@ void fill_clatter(SceneMaker& m) {
   m.judge(Judge::gain, 0.05, 6);
 }
 
+// Plates, rods and boxes thrown at a floor, one after the other.
+void fill_wreck(SceneMaker& m) {
+  const int n = m.count(2, 150);
+  const double size = m.random.between(0.2, 0.6), thick = size / m.random.log_between(2, 50);
+  const double speed = m.random.log_between(2, 60), rods = m.random.between(0, 0.5);
+  m.ground();
+  for (int i = 0; i < n; ++i) {
+    const double wide = size * m.random.between(0.5, 1), deep = size * m.random.between(0.5, 1);
+    const double pitch = 2.1 * size;
+    const Triple at = {pitch * (i % 2) + 0.2 * size * m.random.between(-1, 1),
+                       pitch * (1 + static_cast<double>(i / 4)), pitch * (i / 2 % 2)};
+    const int body =
+        m.random.chance(rods) ? m.box({wide, thick, thick}, at) : m.box({wide, thick, deep}, at);
+    m.turn(body, m.any_turn());
+    m.body(body).velocity = Triple{0, -speed, 0} + m.jitter(0.1 * speed);
+    m.body(body).angular_velocity = m.jitter(m.random.between(0, 0.5) * speed);
+  }
+  m.set_friction(m.random.between(0.1, 0.9));
+  m.judge(Judge::gain, 0.05, 6);
+}
+
+// A heavy box falls on a pile of light boxes and balls.
+void fill_crush(SceneMaker& m) {
+  const int n = m.count(4, 150), side = m.random.count(2, 4);
+  const double size = m.random.between(0.1, 0.3), balls = m.random.between(0, 0.5);
+  m.fix(m.box({450, 1, 450}, {0, -1, 0}));  // the fastest stay on it
+  for (int i = 0; i < n; ++i) {
+    const double half = size * m.random.between(0.6, 1);
+    const int layer = i / (side * side), cell = i % (side * side);
+    const Triple at =
+        Triple{2.1 * size * (cell % side - 0.5 * (side - 1)), 2.1 * size * (layer + 0.6),
+               2.1 * size * (cell / side - 0.5 * (side - 1))} +
+        m.jitter(0.1 * size);
+    const int light =
+        m.random.chance(balls) ? m.ball(half, at, 500) : m.box({half, half, half}, at, 500);
+    m.watch(light);
+  }
+  const double big = size * side * m.random.between(0.7, 1.2);
+  const double top = 2.1 * size * (1 + static_cast<double>((n - 1) / (side * side)));
+  const int heavy = m.box({big, big, big}, {0, top + big + 1, 0});
+  m.turn(heavy, m.random.chance(0.5) ? m.any_turn() : Turn{});
+  m.body(heavy).position[1] += big;
+  m.set_mass(heavy, 500 * 8 * size * size * size * m.random.log_between(1, 100'000));
+  m.set_friction(m.random.between(0.3, 0.9));
+  m.scene.may_sleep = true;
+  m.judge(Judge::sunk, 0.02, 6);
+}
+
 }  // namespace
 
 void add_impact_families(std::vector<Family>& all) {
@@ -114,6 +162,8 @@ void add_impact_families(std::vector<Family>& all) {
        {"elastic", "boxes, capsules or balls that bounce, e = 1", fill_elastic},
        {"clatter", "plates and rods dropped any way", fill_clatter},
        {"crowd", "20-300 balls at one place: none falls through", fill_crowd},
+       {"crush", "heavy box dropped on 4-150 light bodies, up to 100,000 : 1", fill_crush},
+       {"wreck", "2-150 plates and rods thrown down at 2-60 m/s", fill_wreck},
        {"bullets", "small fast bodies against a wall of 4-200 mm", fill_bullets}});
 }
 

@@ -39,7 +39,7 @@ void StackWarmStart::find(const ContactScene& scene, const ContactRun& run, Para
     });
     initial_.find(supports_, run, parts_.bodies.before(), parallel);
   }
-  limit_.limit(run);
+  limit_.limit_warm_start(scene, run);
 }
 
 // It has neither joints nor locked axes.

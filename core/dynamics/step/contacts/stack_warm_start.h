@@ -10,7 +10,7 @@
 #include "core/dynamics/stack/initial_warm_start.h"
 #include "core/dynamics/stack/stack_rebalance.h"
 #include "core/dynamics/step/contacts/constraint_layout.h"
-#include "core/dynamics/step/contacts/warm_start_limit.h"
+#include "core/dynamics/step/contacts/iterated_gain_limit.h"
 #include "core/dynamics/step/input/contact_list.h"
 #include "core/dynamics/step/input/contact_scene.h"
 #include "core/dynamics/step/input/solver_bodies.h"
@@ -38,6 +38,9 @@ class StackWarmStart {
   /// Once blocks are prepared and counts of overloaded contacts are known.
   void find(const ContactScene& scene, const ContactRun& run, Parallel& parallel);
 
+  /// Of all impulses since a substep's beginning.
+  void limit_gains(const ContactRun& run) { limit_.limit_gains(run); }
+
   /// Writes the mean impulses of new contacts that `find` gave one.
   void store(std::span<ContactRecord> records) const { initial_.store(supports_, records); }
 
@@ -50,7 +53,7 @@ class StackWarmStart {
   SupportGraph supports_;
   InitialWarmStart initial_;
   StackRebalance rebalance_;
-  WarmStartLimit limit_;
+  IteratedGainLimit limit_;
 };
 
 }  // namespace lockstone

@@ -1,0 +1,186 @@
+#include "core/dynamics/step/contacts/iterated_gain_limit.h"
+
+#include <algorithm>
+#include <array>
+
+#include <lockstone/assert.h>
+
+#include "core/base/reserved.h"
+#include "core/dynamics/body/energy.h"
+#include "core/dynamics/body/lane_bodies.h"
+#include "core/dynamics/contact/block_words.h"
+#include "core/math/wide/scalar_lanes.h"
+
+namespace lockstone {
+namespace {
+
+// An island may gain this part of its energy: 2^-2.
+constexpr int k_gain_shift = 2;
+
+// Of both operands of a word.
+std::int64_t share_of_both(std::int64_t word, std::int32_t share) {
+  const auto part = [share](std::int64_t x) { return raw::round_shift(x * share, k_share_bits); };
+  return lanes::scalar::pack(static_cast<std::int32_t>(part(low_word(word))),
+                             static_cast<std::int32_t>(part(high_word(word))));
+}
+
+// High operands of points are the largest impulses of the tick; at its beginning the same as the
+// low ones, and scaled with them.
+void scale_impulses(lanes::ManifoldBlock& block, std::size_t lane, std::int32_t share,
+                    bool is_beginning) {
+  LKS_ASSERT(lane < lanes::k_block_lanes && share >= 0);
+  for (lanes::ManifoldBlock::Point& point : block.points) {
+    std::int64_t& word = point.impulse[lane];
+    const std::int64_t both = share_of_both(word, share);
+    word = is_beginning ? both : word - low_word(word) + low_word(both);
+  }
+  block.friction[lane] = share_of_both(block.friction[lane], share);
+  const std::int64_t twist = share_of_both(block.twist[lane], share);
+  block.twist[lane] = block.twist[lane] - low_word(block.twist[lane]) + low_word(twist);
+  if (!block.is_plain(lane)) block.rolling[lane] = share_of_both(block.rolling[lane], share);
+}
+
+}  // namespace
+
+IteratedGainLimit::IteratedGainLimit(std::size_t body_capacity, const Parts& parts)
+    : parts_(parts) {
+  islands_.reserve(body_capacity + 1);
+}
+
+void IteratedGainLimit::limit_warm_start(const ContactScene& scene, const ContactRun& run) {
+  scene_ = scene;
+  knows_sources_ = false;
+  limit(run, Impulses::to_come);
+}
+
+void IteratedGainLimit::limit_gains(const ContactRun& run) {
+  if (!parts_.bodies.are_pushed_hard()) return;
+  if (!knows_sources_) parts_.islands.find_energy_sources(scene_, parts_.bodies, parts_.contacts);
+  knows_sources_ = true;
+  limit(run, Impulses::felt);
+}
+
+void IteratedGainLimit::limit(const ContactRun& run, Impulses which) {
+  if (!find_hard_pushes(which)) return;
+  sum_energies(which);
+  choose_shares(which);
+  scale_bodies(which);
+  scale_contacts(run, which);
+}
+
+IteratedGainLimit::Motion IteratedGainLimit::motion_of(std::uint32_t number, Impulses which) const {
+  const lanes::BodyVelocity& row = parts_.bodies.rows()[number];
+  if (which == Impulses::felt) {
+    const lanes::BodyVelocity free = parts_.bodies.free_motion(number);
+    return {free, difference(row, free)};
+  }
+  const SolverBody& body = parts_.bodies.constants()[number];
+  Motion motion{row, parts_.bodies.before()[number]};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    motion.free.velocity[axis] += body.gain[axis] * (std::int64_t{1} << k_grid_to_row);
+    motion.free.spin[axis] += body.spin_gain[axis] * (std::int64_t{1} << k_grid_to_row);
+  }
+  return motion;
+}
+
+bool IteratedGainLimit::may_gain(const IslandTally& island, Impulses which) const {
+  if (island.joints != 0 || island.is_converged) return false;
+  return which == Impulses::to_come || !island.is_fed;
+}
+
+bool IteratedGainLimit::find_hard_pushes(Impulses which) {
+  bool any = false;
+  for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
+    const std::uint32_t island = parts_.islands.all().of(i);
+    if (island == 0 || !may_gain(parts_.islands.tally(island), which)) continue;
+    if (is_below(motion_of(i, which).given, k_soft_push)) continue;
+    if (!any) islands_.assign(parts_.islands.count(), {});
+    LKS_ASSERT(is_reserved(islands_, parts_.islands.count()));
+    islands_[island].is_pushed_hard = any = true;
+  }
+  return any;
+}
+
+void IteratedGainLimit::sum_energies(Impulses which) {
+  for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
+    Island& island = islands_[parts_.islands.all().of(i)];
+    if (!island.is_pushed_hard) continue;
+    const SolverBody& body = parts_.bodies.constants()[i];
+    LKS_ASSERT(body.is_pushed());
+    if (island.unit == BlockFloat{}) island.unit = body.inverse_mass;
+    const BlockFloat mass = quotient(island.unit, body.inverse_mass);
+    const Motion motion = motion_of(i, which);
+    const Vec3<Velocity> velocity = velocity_of_row(motion.free.velocity),
+                         spin = velocity_of_row(motion.free.spin),
+                         gain = velocity_of_row(motion.given.velocity),
+                         spin_gain = velocity_of_row(motion.given.spin);
+    const Vec3<Velocity> surface = surface_velocity(body.inverse_inertia, spin_gain);
+    add_energy(island.free, twice_energy(velocity, spin, body.inverse_inertia), mass);
+    add_energy(island.square, energy_product(gain, gain, spin_gain, surface), mass);
+    add_energy(island.linear, 2 * energy_product(velocity, gain, spin, surface), mass);
+    if (which == Impulses::felt) add_first_energy(i, mass, island);
+  }
+}
+
+// Of the velocities at the tick's beginning and of those that gravity and forces give in the tick,
+// as if they were at right angles.
+void IteratedGainLimit::add_first_energy(std::uint32_t number, BlockFloat mass,
+                                         Island& island) const {
+  const SolverBody& body = parts_.bodies.constants()[number];
+  const BodyRecord& record = scene_.bodies[parts_.bodies.side(number).body()];
+  const auto of_tick = [this](const std::array<std::int64_t, 3>& gain) {
+    const std::int64_t substeps = parts_.bodies.substeps();
+    return Vec3<Velocity>{Velocity::from_raw(substeps * gain[0]),
+                          Velocity::from_raw(substeps * gain[1]),
+                          Velocity::from_raw(substeps * gain[2])};
+  };
+  add_energy(island.first, twice_energy(record.velocity, record.spin, body.inverse_inertia), mass);
+  add_energy(island.first,
+             twice_energy(of_tick(body.gain), of_tick(body.spin_gain), body.inverse_inertia), mass);
+}
+
+// With a share s of the impulses the energy is free + s·linear + s²·square.
+void IteratedGainLimit::choose_shares(Impulses which) {
+  for (Island& island : islands_) {
+    const std::int64_t base =
+        which == Impulses::to_come ? island.free : std::max(island.free, island.first);
+    const std::int64_t all =
+        raw::saturating_add(island.free, raw::saturating_add(island.linear, island.square));
+    if (all > raw::saturating_add(base, base >> k_gain_shift))
+      island.share = share_of(-(island.linear >> 1), island.square);
+    LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
+  }
+}
+
+void IteratedGainLimit::scale_bodies(Impulses which) {
+  for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
+    const std::int32_t share = islands_[parts_.islands.all().of(i)].share;
+    if (share == 1 << k_share_bits) continue;
+    LKS_ASSERT(share >= 0 && share < 1 << k_share_bits);
+    const Motion motion = motion_of(i, which);
+    const auto part = [share](std::int64_t x) { return product_rounded(x, share, k_share_bits); };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t velocity = part(motion.given.velocity[axis]),
+                         spin = part(motion.given.spin[axis]);
+      if (which == Impulses::to_come) {
+        parts_.bodies.before()[i].velocity[axis] = velocity;
+        parts_.bodies.before()[i].spin[axis] = spin;
+      } else {
+        parts_.bodies.rows()[i].velocity[axis] = motion.free.velocity[axis] + velocity;
+        parts_.bodies.rows()[i].spin[axis] = motion.free.spin[axis] + spin;
+      }
+    }
+    if (which == Impulses::felt) parts_.bodies.apply_axis_locks(i);
+  }
+}
+
+void IteratedGainLimit::scale_contacts(const ContactRun& run, Impulses which) {
+  parts_.contacts.for_each([&](ContactId id, const ContactRef& contact) {
+    const std::int32_t share = islands_[parts_.islands.of(contact)].share;
+    if (share == 1 << k_share_bits) return;
+    const ContactLane place = parts_.layout.lane_of(id);
+    scale_impulses(run.blocks[place.block()], place.lane(), share, which == Impulses::to_come);
+  });
+}
+
+}  // namespace lockstone
