@@ -96,6 +96,33 @@ void PhaseSolver::scale_warm_start() {
   if (part != 0) go(part);
 }
 
+// Scales all impulses down to the least kinetic energy, once a phase that pushes no overlap out is
+// over: at most that of free motion, converged or not. Where it is converged nothing changes, since
+// no row that pushes moves.
+void PhaseSolver::scale_down() {
+  constexpr std::int64_t k_scale = std::int64_t{1} << lanes::k_residual_point;
+  const std::span<Problem> problems = island_.problems;
+  lanes::proximal_kernels().find_residuals(problems.data(), problems.size(),
+                                           island_.velocities.data());
+  ProductSum slope, curve;
+  for (Problem& problem : problems) {
+    LKS_ASSERT(problem.points <= problem.rows && !problem.has_locks);
+    problem.next = {};
+    for (std::size_t i = 0; i < problem.rows; ++i) {
+      const std::int64_t impulse = problem.impulse[i];
+      const std::int64_t pulled = problem.give[i] * (impulse - problem.centre[i]);
+      slope.add(-impulse, problem.residual[i] - pulled);
+    }
+  }
+  if (slope.rounded(1) >= 0) return;
+  sum_changes();
+  for (const BodyVector& sum : island_.changes.first(body_count()))
+    for (const std::int64_t x : sum)
+      curve.add(x * k_scale, x);
+  const std::int64_t part = dual_part(slope, curve);
+  if (part != 0) go(part);
+}
+
 bool PhaseSolver::pass() {
   const std::span<Problem> problems = island_.problems;
   const lanes::PhaseResult result =
@@ -279,6 +306,7 @@ bool PhaseSolver::converge(bool scales) {
   const int centres = island_.joints.empty() ? k_most_centres : 0;
   for (int i = 0; i < centres && fits_ && move_centres(); ++i)
     iterate();
+  if (!scales && !is_solved_ && island_.joints.empty()) scale_down();
   return fits_;
 }
 

@@ -51,6 +51,7 @@ class PhaseSolver {
   void scale_warm_start();
   void iterate();
   [[nodiscard]] bool move_centres();
+  void scale_down();
   [[nodiscard]] bool pass();
   void mark_active();
   void factor();

@@ -64,7 +64,7 @@ struct IslandTally {
 
   /// Enough bodies: with joints that only limit how they lie to each other, or of like masses.
   [[nodiscard]] bool may_be_loose() const {
-    if (joints == 0) return bodies >= k_least_loose && least_share >= (1 << 30) / 16;
+    if (joints == 0) return bodies >= k_least_loose && least_share >= (1 << 30) / 64;
     return bodies >= k_least_jointed_loose && !is_carried && least_share >= (1 << 30) / 32;
   }
   [[nodiscard]] bool is_stack() const { return !is_converged && bearing > k_most_bearing; }

@@ -1,7 +1,7 @@
 // The rows of an island's proximal problem, in the units in which they are solved.
 //
 // A body's unknowns are u = √(m/m₀)·(v, Cᵀ·spin), where C·Cᵀ is its normalised inverse inertia, so
-// that its kinetic energy is m₀·|u|²/2; m₀ is the island's greatest mass of a pair. A row's
+// that its kinetic energy is m₀·|u|²/2; m₀ is the mass of the island's heaviest body. A row's
 // Jacobian is scaled to length 1, but for friction's: both tangents share the scale of the longer
 // one. Between one phase and the next a row's impulse is the velocity jump of its pair, λ·(1/mA +
 // 1/mB), as everywhere else in the solver.

@@ -20,7 +20,7 @@ inline constexpr std::int64_t k_whole = std::int64_t{1} << 30;
 
 /// Clamps a quantity that a row keeps between phases.
 [[nodiscard]] inline std::int64_t within_row(std::int64_t x) {
-  constexpr std::int64_t k_most = std::int64_t{1} << 58;
+  constexpr std::int64_t k_most = std::int64_t{1} << 60;
   return std::clamp(x, -k_most, k_most);
 }
 

@@ -70,6 +70,17 @@ TEST(GeneralRun, MovesNoBodyByTheRoundingOfAFactor) {
     EXPECT_LT(play("toss", seed).gain, 0.01) << seed;
 }
 
+// A light body under a heavy one feels impulses of its own weight times their ratio. They were cut
+// at 2^14 m/s, on one side and not on the other: boxes of 100,000 : 1 bounced higher than they fell
+// from, and light ones reached 500 m/s.
+TEST(GeneralRun, GainsNoEnergyWhereAHeavyBoxFallsOnLightBodies) {
+  for (const std::uint64_t seed : {39U, 57U})
+    EXPECT_LT(play("crush", seed).gain, 0.01) << seed;
+  const GeneralFigures fast = play("crush", 52);
+  EXPECT_LT(fast.gain, 0.01);
+  EXPECT_LT(fast.speed, 150);
+}
+
 // A ball that floor and box press from both sides, in an island that is solved to convergence.
 TEST(GeneralRun, GainsNoEnergyWhereBallsBounceAmongOtherBodies) {
   for (const std::uint64_t seed : {7657U, 10323U, 17176U, 26437U, 27359U})
