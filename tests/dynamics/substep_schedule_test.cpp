@@ -20,13 +20,15 @@ TEST(SubstepSchedule, SolvesBeforePositionsMoveAndRelaxesAfter) {
   work.bodies = 5;
   work.contact_blocks[0] = 1;
   schedule.plan_substeps(work);
-  const std::vector<StageKind> one = {StageKind::velocities, StageKind::solve, StageKind::positions,
-                                      StageKind::relax};
-  std::vector<StageKind> two = one;
-  two.insert(two.end(), one.begin(), one.end());
+  const std::vector<StageKind> two = {
+      StageKind::velocities,  StageKind::solve,       StageKind::positions,
+      StageKind::relax,       StageKind::note_pushes, StageKind::limit_gains,
+      StageKind::velocities,  StageKind::note_pushes, StageKind::limit_repeats,
+      StageKind::solve,       StageKind::positions,   StageKind::relax,
+      StageKind::note_pushes, StageKind::limit_gains};
   EXPECT_EQ(kinds_of(schedule), two);
   EXPECT_EQ(schedule.stages()[0].substep, 0);
-  EXPECT_EQ(schedule.stages()[7].substep, 1);
+  EXPECT_EQ(schedule.stages()[11].substep, 1);
 }
 
 TEST(SubstepSchedule, OnlyRelaxesWhereAllContactsAreConverged) {

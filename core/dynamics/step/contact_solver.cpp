@@ -22,7 +22,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       effort_(step, std::min(converged_contacts, contact_capacity)),
       constraints_(step, body_capacity, contact_capacity, {bodies_, contacts_, islands_, effort_}),
       warm_start_(body_capacity, contact_capacity, joint_capacity,
-                  {bodies_, contacts_, islands_, joints_, constraints_.layout()}),
+                  {bodies_, contacts_, islands_, joints_, constraints_.layout(), step.substeps}),
       totals_(most_hits(body_capacity)),
       impacts_(step, contact_capacity, {bodies_, contacts_, islands_, constraints_, totals_}),
       motion_(step, body_capacity + contact_capacity + 1, bodies_),
@@ -156,10 +156,10 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
     case StageKind::velocities:
       return bodies_.integrate_velocities(stage.substep == 0, first, end);
     case StageKind::note_pushes:
-      return bodies_.note_hard_pushes(first, end);
+      return warm_start_.gain_limit().note_pushes(first, end);
     case StageKind::limit_repeats:
     case StageKind::limit_gains:
-      return warm_start_.limit_gains(constraints_.run());
+      return warm_start_.gain_limit().limit_gains(constraints_.run());
     case StageKind::warm_joints:
       return joints.warm_start(joints_.run(), first, end);
     case StageKind::first_impacts:

@@ -62,7 +62,7 @@ void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   LKS_ASSERT(substep < substeps());
   add_serial(StageKind::note_energies, work.watches_energy);
   add({StageKind::velocities, 0, substep}, work.bodies, k_body_grain);
-  if (work.iterates && substep != 0) add_gain_limit(StageKind::limit_repeats, work);
+  if (substep != 0) add_gain_limit(StageKind::limit_repeats, work);
   add({StageKind::warm_joints}, work.clusters, k_one_grain);
   add_serial(StageKind::first_impacts, work.has_impacts);
   if (work.iterates) add_contacts(StageKind::solve, work);
@@ -80,7 +80,7 @@ void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   add_serial(StageKind::impacts, work.has_impacts);
   add_contacts(StageKind::relax, work, substep);
   add({StageKind::relax_islands}, work.converged, k_one_grain);
-  if (work.iterates) add_gain_limit(StageKind::limit_gains, work);
+  add_gain_limit(StageKind::limit_gains, work);
   add_serial(StageKind::limit_energies, work.watches_energy);
   add_serial(StageKind::note_impulses, work.watches_impulses);
 }
@@ -103,6 +103,7 @@ void SubstepSchedule::add_serial(StageKind kind, bool is_due) {
 
 // The limit looks at islands one by one, only once a body was pushed hard.
 void SubstepSchedule::add_gain_limit(StageKind kind, const TickWork& work) {
+  if (!work.iterates || work.contact_blocks == BlockCounts{}) return;
   add({StageKind::note_pushes}, work.bodies, k_body_grain);
   add_serial(kind, true);
 }

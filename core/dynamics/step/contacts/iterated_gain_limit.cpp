@@ -15,7 +15,7 @@ namespace lockstone {
 namespace {
 
 // An island may gain this part of its energy: 2^-2.
-constexpr int k_gain_shift = 2;
+constexpr int k_substep_gain_shift = 2;
 
 // Of both operands of a word.
 std::int64_t share_of_both(std::int64_t word, std::int32_t share) {
@@ -49,12 +49,12 @@ IteratedGainLimit::IteratedGainLimit(std::size_t body_capacity, const Parts& par
 
 void IteratedGainLimit::limit_warm_start(const ContactScene& scene, const ContactRun& run) {
   scene_ = scene;
-  knows_sources_ = false;
+  knows_sources_ = are_pushed_hard_ = false;
   limit(run, Impulses::to_come);
 }
 
 void IteratedGainLimit::limit_gains(const ContactRun& run) {
-  if (!parts_.bodies.are_pushed_hard()) return;
+  if (!are_pushed_hard_.load(std::memory_order_relaxed)) return;
   if (!knows_sources_) parts_.islands.find_energy_sources(scene_, parts_.bodies, parts_.contacts);
   knows_sources_ = true;
   limit(run, Impulses::felt);
@@ -62,16 +62,40 @@ void IteratedGainLimit::limit_gains(const ContactRun& run) {
 
 void IteratedGainLimit::limit(const ContactRun& run, Impulses which) {
   if (!find_hard_pushes(which)) return;
+  LKS_ASSERT(islands_.size() == parts_.islands.count());
   sum_energies(which);
   choose_shares(which);
   scale_bodies(which);
   scale_contacts(run, which);
 }
 
+// The velocity that a body would have in this substep without impulses.
+lanes::BodyVelocity IteratedGainLimit::free_motion(std::uint32_t number) const {
+  LKS_ASSERT(number > 0 && number < parts_.bodies.count());
+  const SolverBody& body = parts_.bodies.constants()[number];
+  lanes::BodyVelocity free = parts_.bodies.before()[number];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    free.velocity[axis] += body.gain[axis] * (std::int64_t{1} << k_grid_to_row);
+    free.spin[axis] += body.spin_gain[axis] * (std::int64_t{1} << k_grid_to_row);
+  }
+  return free;
+}
+
+void IteratedGainLimit::note_pushes(std::size_t first, std::size_t end) {
+  LKS_ASSERT(end <= parts_.bodies.count());
+  if (are_pushed_hard_.load(std::memory_order_relaxed)) return;
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
+    const lanes::BodyVelocity free = free_motion(static_cast<std::uint32_t>(i));
+    if (is_below(difference(parts_.bodies.rows()[i], free), k_soft_push)) continue;
+    return are_pushed_hard_.store(true, std::memory_order_relaxed);
+  }
+}
+
 IteratedGainLimit::Motion IteratedGainLimit::motion_of(std::uint32_t number, Impulses which) const {
+  LKS_ASSERT(number > 0 && number < parts_.bodies.count());
   const lanes::BodyVelocity& row = parts_.bodies.rows()[number];
   if (which == Impulses::felt) {
-    const lanes::BodyVelocity free = parts_.bodies.free_motion(number);
+    const lanes::BodyVelocity free = free_motion(number);
     return {free, difference(row, free)};
   }
   const SolverBody& body = parts_.bodies.constants()[number];
@@ -85,6 +109,7 @@ IteratedGainLimit::Motion IteratedGainLimit::motion_of(std::uint32_t number, Imp
 
 bool IteratedGainLimit::may_gain(const IslandTally& island, Impulses which) const {
   if (island.joints != 0 || island.is_converged) return false;
+  LKS_ASSERT(which == Impulses::to_come || knows_sources_);
   return which == Impulses::to_come || !island.is_fed;
 }
 
@@ -94,6 +119,7 @@ bool IteratedGainLimit::find_hard_pushes(Impulses which) {
     const std::uint32_t island = parts_.islands.all().of(i);
     if (island == 0 || !may_gain(parts_.islands.tally(island), which)) continue;
     if (is_below(motion_of(i, which).given, k_soft_push)) continue;
+    LKS_ASSERT(parts_.bodies.constants()[i].is_pushed());
     if (!any) islands_.assign(parts_.islands.count(), {});
     LKS_ASSERT(is_reserved(islands_, parts_.islands.count()));
     islands_[island].is_pushed_hard = any = true;
@@ -126,10 +152,12 @@ void IteratedGainLimit::sum_energies(Impulses which) {
 // as if they were at right angles.
 void IteratedGainLimit::add_first_energy(std::uint32_t number, BlockFloat mass,
                                          Island& island) const {
+  LKS_ASSERT(parts_.substeps > 0 && parts_.bodies.side(number).body() < scene_.bodies.size());
   const SolverBody& body = parts_.bodies.constants()[number];
   const BodyRecord& record = scene_.bodies[parts_.bodies.side(number).body()];
+  LKS_ASSERT(record.is_dynamic());
   const auto of_tick = [this](const std::array<std::int64_t, 3>& gain) {
-    const std::int64_t substeps = parts_.bodies.substeps();
+    const std::int64_t substeps = parts_.substeps;
     return Vec3<Velocity>{Velocity::from_raw(substeps * gain[0]),
                           Velocity::from_raw(substeps * gain[1]),
                           Velocity::from_raw(substeps * gain[2])};
@@ -144,9 +172,10 @@ void IteratedGainLimit::choose_shares(Impulses which) {
   for (Island& island : islands_) {
     const std::int64_t base =
         which == Impulses::to_come ? island.free : std::max(island.free, island.first);
+    LKS_ASSERT(base >= 0 && island.square >= 0);
     const std::int64_t all =
         raw::saturating_add(island.free, raw::saturating_add(island.linear, island.square));
-    if (all > raw::saturating_add(base, base >> k_gain_shift))
+    if (all > raw::saturating_add(base, base >> k_substep_gain_shift))
       island.share = share_of(-(island.linear >> 1), island.square);
     LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
   }
@@ -179,6 +208,7 @@ void IteratedGainLimit::scale_contacts(const ContactRun& run, Impulses which) {
     const std::int32_t share = islands_[parts_.islands.of(contact)].share;
     if (share == 1 << k_share_bits) return;
     const ContactLane place = parts_.layout.lane_of(id);
+    LKS_ASSERT(place.block() < run.blocks.size());
     scale_impulses(run.blocks[place.block()], place.lane(), share, which == Impulses::to_come);
   });
 }

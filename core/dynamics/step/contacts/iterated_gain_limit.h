@@ -15,6 +15,8 @@
 // tick, islands that moving kinematic bodies or driven surfaces may give energy.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -35,6 +37,7 @@ class IteratedGainLimit {
     const ContactList& contacts;
     IslandBuilder& islands;
     const ConstraintLayout& layout;
+    int substeps;
   };
 
   /// `parts` must outlive it. No function but this allocates.
@@ -43,6 +46,9 @@ class IteratedGainLimit {
   /// Once all impulses of the tick's beginning are known: those of single contacts, and the
   /// velocities that they give to bodies.
   void limit_warm_start(const ContactScene& scene, const ContactRun& run);
+  /// Notes whether impulses changed a component of a velocity, in a substep of this tick, by more
+  /// than k_soft_push. From any thread.
+  void note_pushes(std::size_t first, std::size_t end);
   /// Of all impulses since a substep's beginning, once bodies have velocities by them. The scene is
   /// that of the tick's beginning.
   void limit_gains(const ContactRun& run);
@@ -69,6 +75,7 @@ class IteratedGainLimit {
   };
 
   void limit(const ContactRun& run, Impulses which);
+  [[nodiscard]] lanes::BodyVelocity free_motion(std::uint32_t number) const;
   [[nodiscard]] Motion motion_of(std::uint32_t number, Impulses which) const;
   [[nodiscard]] bool may_gain(const IslandTally& island, Impulses which) const;
   [[nodiscard]] bool find_hard_pushes(Impulses which);
@@ -79,8 +86,9 @@ class IteratedGainLimit {
   void scale_contacts(const ContactRun& run, Impulses which);
 
   Parts parts_;
-  ContactScene scene_;          // of the tick
-  bool knows_sources_ = false;  // of energy, in the tick
+  ContactScene scene_;                        // of the tick
+  bool knows_sources_ = false;                // of energy, in the tick
+  std::atomic<bool> are_pushed_hard_{false};  // bodies, in the tick
   std::vector<Island> islands_;
 };
 

@@ -12,7 +12,8 @@ StackWarmStart::StackWarmStart(std::size_t body_capacity, std::size_t contact_ca
     : parts_(parts),
       supports_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
       initial_(contact_capacity),
-      limit_(body_capacity, {parts.bodies, parts.contacts, parts.islands, parts.layout}) {}
+      limit_(body_capacity,
+             {parts.bodies, parts.contacts, parts.islands, parts.layout, parts.substeps}) {}
 
 void StackWarmStart::make_room(std::uint32_t workers) {
   initial_.make_room(workers);

@@ -28,6 +28,7 @@ class StackWarmStart {
     IslandBuilder& islands;
     const TickJoints& joints;
     const ConstraintLayout& layout;
+    int substeps;
   };
 
   /// No functions but this and `make_room` allocate.
@@ -38,8 +39,8 @@ class StackWarmStart {
   /// Once blocks are prepared and counts of overloaded contacts are known.
   void find(const ContactScene& scene, const ContactRun& run, Parallel& parallel);
 
-  /// Of all impulses since a substep's beginning.
-  void limit_gains(const ContactRun& run) { limit_.limit_gains(run); }
+  /// Limits the energy that impulses have given since a substep's beginning.
+  [[nodiscard]] IteratedGainLimit& gain_limit() { return limit_; }
 
   /// Writes the mean impulses of new contacts that `find` gave one.
   void store(std::span<ContactRecord> records) const { initial_.store(supports_, records); }

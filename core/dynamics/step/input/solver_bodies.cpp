@@ -62,7 +62,7 @@ void SolverBodies::clear() {
     number_of_[side.body()] = 0;
   sides_.assign(1, {});
   standing_count_ = 0;
-  has_axis_locks_ = are_pushed_hard_ = false;
+  has_axis_locks_ = false;
 }
 
 BodyRef SolverBodies::add(BodySide side) {
@@ -138,26 +138,6 @@ void SolverBodies::apply_axis_locks(std::uint32_t number) {
   for (int axis = 0; axis < 3; ++axis) {
     if (constants_[number].is_locked(axis))
       rows_[number].velocity[static_cast<std::size_t>(axis)] = 0;
-  }
-}
-
-lanes::BodyVelocity SolverBodies::free_motion(std::uint32_t number) const {
-  const SolverBody& body = constants_[number];
-  BodyVelocity free = before_[number];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    free.velocity[axis] += body.gain[axis] * (std::int64_t{1} << k_grid_to_row);
-    free.spin[axis] += body.spin_gain[axis] * (std::int64_t{1} << k_grid_to_row);
-  }
-  return free;
-}
-
-void SolverBodies::note_hard_pushes(std::size_t first, std::size_t end) {
-  LKS_ASSERT(end <= count());
-  if (are_pushed_hard()) return;
-  for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
-    const BodyVelocity free = free_motion(static_cast<std::uint32_t>(i));
-    if (is_below(difference(rows_[i], free), k_soft_push)) continue;
-    return are_pushed_hard_.store(true, std::memory_order_relaxed);
   }
 }
 

@@ -69,17 +69,6 @@ class SolverBodies {
     return has_axis_locks_.load(std::memory_order_relaxed);
   }
 
-  /// Notes whether impulses changed a component of any velocity, in a substep of this tick, by more
-  /// than k_soft_push.
-  void note_hard_pushes(std::size_t first, std::size_t end);
-  [[nodiscard]] bool are_pushed_hard() const {
-    return are_pushed_hard_.load(std::memory_order_relaxed);
-  }
-  /// The velocity that a body would have in this substep without impulses.
-  [[nodiscard]] lanes::BodyVelocity free_motion(std::uint32_t number) const;
-
-  [[nodiscard]] int substeps() const { return step_.substeps; }
-
   /// By number.
   [[nodiscard]] std::span<SolverBody> constants() { return std::span(constants_).first(count()); }
   [[nodiscard]] std::span<const SolverBody> constants() const {
@@ -106,7 +95,6 @@ class SolverBodies {
   std::vector<lanes::DeltaPose> travel_;
   std::uint32_t standing_count_ = 0;
   std::atomic<bool> has_axis_locks_{false};  // any locked axis of moving
-  std::atomic<bool> are_pushed_hard_{false};
 };
 
 }  // namespace lockstone
