@@ -69,11 +69,12 @@ void IteratedGainLimit::limit(const ContactRun& run, Impulses which) {
   scale_contacts(run, which);
 }
 
-// The velocity that a body would have in this substep without impulses.
-lanes::BodyVelocity IteratedGainLimit::free_motion(std::uint32_t number) const {
+// The velocity that a body would have in this substep without the impulses.
+lanes::BodyVelocity IteratedGainLimit::free_motion(std::uint32_t number, Impulses which) const {
   LKS_ASSERT(number > 0 && number < parts_.bodies.count());
   const SolverBody& body = parts_.bodies.constants()[number];
-  lanes::BodyVelocity free = parts_.bodies.before()[number];
+  lanes::BodyVelocity free =
+      which == Impulses::felt ? parts_.bodies.before()[number] : parts_.bodies.rows()[number];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     free.velocity[axis] += body.gain[axis] * (std::int64_t{1} << k_grid_to_row);
     free.spin[axis] += body.spin_gain[axis] * (std::int64_t{1} << k_grid_to_row);
@@ -85,26 +86,17 @@ void IteratedGainLimit::note_pushes(std::size_t first, std::size_t end) {
   LKS_ASSERT(end <= parts_.bodies.count());
   if (are_pushed_hard_.load(std::memory_order_relaxed)) return;
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
-    const lanes::BodyVelocity free = free_motion(static_cast<std::uint32_t>(i));
+    const lanes::BodyVelocity free = free_motion(static_cast<std::uint32_t>(i), Impulses::felt);
     if (is_below(difference(parts_.bodies.rows()[i], free), k_soft_push)) continue;
     return are_pushed_hard_.store(true, std::memory_order_relaxed);
   }
 }
 
 IteratedGainLimit::Motion IteratedGainLimit::motion_of(std::uint32_t number, Impulses which) const {
-  LKS_ASSERT(number > 0 && number < parts_.bodies.count());
-  const lanes::BodyVelocity& row = parts_.bodies.rows()[number];
-  if (which == Impulses::felt) {
-    const lanes::BodyVelocity free = free_motion(number);
-    return {free, difference(row, free)};
-  }
-  const SolverBody& body = parts_.bodies.constants()[number];
-  Motion motion{row, parts_.bodies.before()[number]};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    motion.free.velocity[axis] += body.gain[axis] * (std::int64_t{1} << k_grid_to_row);
-    motion.free.spin[axis] += body.spin_gain[axis] * (std::int64_t{1} << k_grid_to_row);
-  }
-  return motion;
+  const lanes::BodyVelocity free = free_motion(number, which);
+  if (which == Impulses::to_come) return {free, parts_.bodies.before()[number]};
+  LKS_ASSERT(which == Impulses::felt);
+  return {free, difference(parts_.bodies.rows()[number], free)};
 }
 
 bool IteratedGainLimit::may_gain(const IslandTally& island, Impulses which) const {

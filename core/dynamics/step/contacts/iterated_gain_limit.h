@@ -75,7 +75,7 @@ class IteratedGainLimit {
   };
 
   void limit(const ContactRun& run, Impulses which);
-  [[nodiscard]] lanes::BodyVelocity free_motion(std::uint32_t number) const;
+  [[nodiscard]] lanes::BodyVelocity free_motion(std::uint32_t number, Impulses which) const;
   [[nodiscard]] Motion motion_of(std::uint32_t number, Impulses which) const;
   [[nodiscard]] bool may_gain(const IslandTally& island, Impulses which) const;
   [[nodiscard]] bool find_hard_pushes(Impulses which);
