@@ -75,7 +75,7 @@ void PhaseSolver::solve(bool scales) {
 // that push overlap out are left out of D here.
 void PhaseSolver::scale_warm_start() {
   const int down = k_row_unit_bits - island_.state.bits;
-  ProductSum slope, curve;
+  ProductSum slope;
   for (Problem& problem : island_.problems) {
     LKS_ASSERT(problem.points <= problem.rows);
     if (problem.has_locks) problem.next = problem.impulse;
@@ -87,24 +87,17 @@ void PhaseSolver::scale_warm_start() {
       slope.add(problem.next[i] - problem.impulse[i], problem.speed[i] - out);
     }
   }
-  if (slope.rounded(1) >= 0) return;
-  sum_changes();
-  for (const BodyVector& sum : island_.changes.first(body_count()))
-    for (const std::int64_t x : sum)
-      curve.add(x, x);
-  const std::int64_t part = dual_part(slope, curve);
-  if (part != 0) go(part);
+  go_to_least_energy(slope, 1);
 }
 
 // Scales all impulses down to the least kinetic energy, once a phase that pushes no overlap out is
 // over: at most that of free motion, converged or not. Where it is converged nothing changes, since
 // no row that pushes moves.
 void PhaseSolver::scale_down() {
-  constexpr std::int64_t k_scale = std::int64_t{1} << lanes::k_residual_point;
   const std::span<Problem> problems = island_.problems;
   lanes::proximal_kernels().find_residuals(problems.data(), problems.size(),
                                            island_.velocities.data());
-  ProductSum slope, curve;
+  ProductSum slope;
   for (Problem& problem : problems) {
     LKS_ASSERT(problem.points <= problem.rows && !problem.has_locks);
     problem.next = {};
@@ -114,13 +107,26 @@ void PhaseSolver::scale_down() {
       slope.add(-impulse, problem.residual[i] - pulled);
     }
   }
+  go_to_least_energy(slope, std::int64_t{1} << lanes::k_residual_point);
+}
+
+// Goes along the step at hand as far as kinetic energy falls; `slope`: its slope, in units `scale`
+// times as fine.
+void PhaseSolver::go_to_least_energy(const ProductSum& slope, std::int64_t scale) {
   if (slope.rounded(1) >= 0) return;
   sum_changes();
-  for (const BodyVector& sum : island_.changes.first(body_count()))
-    for (const std::int64_t x : sum)
-      curve.add(x * k_scale, x);
+  ProductSum curve;
+  add_curve(scale, curve);
   const std::int64_t part = dual_part(slope, curve);
   if (part != 0) go(part);
+}
+
+// Adds the curve of kinetic energy along the step at hand, whose changes are summed.
+void PhaseSolver::add_curve(std::int64_t scale, ProductSum& curve) const {
+  LKS_ASSERT(scale > 0);
+  for (const BodyVector& sum : island_.changes.first(body_count()))
+    for (const std::int64_t x : sum)
+      curve.add(x * scale, x);
 }
 
 bool PhaseSolver::pass() {
@@ -226,7 +232,6 @@ PhaseSolver::Slope PhaseSolver::slope() const {
 
 // The part of the step at which D is least.
 std::int64_t PhaseSolver::search(const ProductSum& slope) const {
-  constexpr std::int64_t k_scale = std::int64_t{1} << lanes::k_residual_point;
   ProductSum curve;
   LKS_ASSERT(!is_solved_);
   for (const Problem& problem : island_.problems) {
@@ -236,9 +241,7 @@ std::int64_t PhaseSolver::search(const ProductSum& slope) const {
       curve.add(problem.give[i] * change, change);
     }
   }
-  for (const BodyVector& sum : island_.changes.first(body_count()))
-    for (const std::int64_t x : sum)
-      curve.add(x * k_scale, x);
+  add_curve(std::int64_t{1} << lanes::k_residual_point, curve);
   return dual_part(slope, curve);
 }
 

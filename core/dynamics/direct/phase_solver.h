@@ -11,8 +11,8 @@
 //
 // Sources: J. Carpentier, R. Budhiraja, N. Mansard, "Proximal and sparse resolution of constrained
 // dynamic equations", 2021 (the proximal problem); docs/notes/solver-choice.md (the leak, and the
-// comparison of solvers). Kinetic energy after the warm start is at most that of the free motion,
-// since its impulses are scaled to the least of D.
+// comparison of solvers). Kinetic energy after the warm start, and after a phase that pushes no
+// overlap out, is at most that of the free motion, since impulses are scaled to the least of it.
 #pragma once
 
 #include <cstdint>
@@ -52,6 +52,8 @@ class PhaseSolver {
   void iterate();
   [[nodiscard]] bool move_centres();
   void scale_down();
+  void go_to_least_energy(const ProductSum& slope, std::int64_t scale);
+  void add_curve(std::int64_t scale, ProductSum& curve) const;
   [[nodiscard]] bool pass();
   void mark_active();
   void factor();

@@ -18,7 +18,7 @@ inline constexpr std::int64_t k_whole = std::int64_t{1} << 30;
   return std::clamp(x, -lanes::k_most_unit, lanes::k_most_unit);
 }
 
-/// Clamps a quantity that a row keeps between phases.
+/// Clamps a quantity that a row keeps between phases; kernels keep speeds within a quarter of it.
 [[nodiscard]] inline std::int64_t within_row(std::int64_t x) {
   constexpr std::int64_t k_most = std::int64_t{1} << 60;
   return std::clamp(x, -k_most, k_most);

@@ -49,14 +49,13 @@ IteratedGainLimit::IteratedGainLimit(std::size_t body_capacity, const Parts& par
 
 void IteratedGainLimit::limit_warm_start(const ContactScene& scene, const ContactRun& run) {
   scene_ = scene;
-  knows_sources_ = are_pushed_hard_ = false;
+  are_pushed_hard_ = false;
   limit(run, Impulses::to_come);
 }
 
 void IteratedGainLimit::limit_gains(const ContactRun& run) {
   if (!are_pushed_hard_.load(std::memory_order_relaxed)) return;
-  if (!knows_sources_) parts_.islands.find_energy_sources(scene_, parts_.bodies, parts_.contacts);
-  knows_sources_ = true;
+  parts_.islands.find_energy_sources(scene_, parts_.bodies, parts_.contacts);
   limit(run, Impulses::felt);
 }
 
@@ -101,7 +100,6 @@ IteratedGainLimit::Motion IteratedGainLimit::motion_of(std::uint32_t number, Imp
 
 bool IteratedGainLimit::may_gain(const IslandTally& island, Impulses which) const {
   if (island.joints != 0 || island.is_converged) return false;
-  LKS_ASSERT(which == Impulses::to_come || knows_sources_);
   return which == Impulses::to_come || !island.is_fed;
 }
 

@@ -87,7 +87,6 @@ class IteratedGainLimit {
 
   Parts parts_;
   ContactScene scene_;                        // of the tick
-  bool knows_sources_ = false;                // of energy, in the tick
   std::atomic<bool> are_pushed_hard_{false};  // bodies, in the tick
   std::vector<Island> islands_;
 };

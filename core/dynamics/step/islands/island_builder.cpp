@@ -23,6 +23,7 @@ IslandBuilder::IslandBuilder(std::size_t body_capacity, std::size_t contact_capa
 
 void IslandBuilder::build(const ContactScene& scene, const SolverBodies& bodies,
                           const ContactList& contacts) {
+  knows_sources_ = false;
   join(scene, bodies, contacts);
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     IslandTally& own = tally(contact);
@@ -90,6 +91,8 @@ void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& c
 
 void IslandBuilder::find_energy_sources(const ContactScene& scene, const SolverBodies& bodies,
                                         const ContactList& contacts) {
+  if (knows_sources_) return;
+  knows_sources_ = true;
   const auto moves = [&](std::uint32_t index) {
     return !scene.bodies[index].is_dynamic() && has_motion(scene.bodies[index]);
   };

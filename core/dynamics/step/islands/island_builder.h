@@ -22,7 +22,7 @@ class IslandBuilder {
   void build(const ContactScene& scene, const SolverBodies& bodies, const ContactList& contacts);
 
   /// Marks the islands that restitution may give energy, and those that moving surfaces and drives
-  /// may.
+  /// may; once a tick, however often it is called.
   void find_energy_sources(const ContactScene& scene, const SolverBodies& bodies,
                            const ContactList& contacts);
 
@@ -69,6 +69,7 @@ class IslandBuilder {
   TickIslands islands_;
   PinchedIslands pinched_;
   bool has_stacks_ = false;
+  bool knows_sources_ = false;  // of energy
 };
 
 }  // namespace lockstone
