@@ -175,7 +175,8 @@ std::vector<std::string> names() {
   return result;
 }
 
-// LOCKSTONE_LOCALITY_TICKS=2000 plays all pairs for this many ticks: some hours. Each of two scenes is compared: the one that is built first, and the one that is built last.
+// LOCKSTONE_LOCALITY_TICKS=2000 plays all pairs for this many ticks: some hours. Each of two scenes
+// is compared: the one that is built first, and the one that is built last.
 std::uint32_t all_pairs_ticks() {
   const char* ticks = std::getenv("LOCKSTONE_LOCALITY_TICKS");
   return ticks == nullptr ? 0 : static_cast<std::uint32_t>(std::stoul(ticks));
@@ -183,10 +184,18 @@ std::uint32_t all_pairs_ticks() {
 
 class EverySceneBesideOthers : public ::testing::TestWithParam<std::string> {};
 
+// The first scene with an end from this place in the list on.
+const Scene* next_with_an_end(std::size_t at) {
+  const std::span<const Scene> all = world_scenes();
+  while (!has_an_end(all[at % all.size()]))
+    ++at;
+  return &all[at % all.size()];
+}
+
 TEST_P(EverySceneBesideOthers, GoesTheWayItGoesAlone) {
-  static const std::vector<const Scene*> all = scenes_with_an_end();
   const Scene& scene = *find_scene(GetParam());
   if (const std::uint32_t ticks = all_pairs_ticks(); ticks != 0) {
+    const std::vector<const Scene*> all = scenes_with_an_end();
     const auto later =
         std::find_if(all.begin(), all.end(), [&](const Scene* other) { return other >= &scene; });
     EXPECT_NO_FATAL_FAILURE(expect_alike(scene, {later, all.end()}, Order::first, ticks));
@@ -196,7 +205,7 @@ TEST_P(EverySceneBesideOthers, GoesTheWayItGoesAlone) {
   const auto at = static_cast<std::size_t>(&scene - world_scenes().data());
   std::vector<const Scene*> others;
   for (const std::size_t distance : k_neighbours)
-    others.push_back(all[(at + distance) % all.size()]);
+    others.push_back(next_with_an_end(at + distance));
   EXPECT_NO_FATAL_FAILURE(expect_alike(scene, others, Order::first, k_ticks));
   EXPECT_NO_FATAL_FAILURE(expect_alike(scene, others, Order::last, k_ticks));
 }
@@ -285,7 +294,8 @@ TEST(Locality, LetsAllScenesOfOneWorldGoTheWayTheyGoAlone) {
 // A negative control: islands share this capacity, and docs/explanation/locality.md says so.
 TEST(Locality, IsBrokenByACapacityThatIsTooSmall) {
   const std::vector<const Scene*> all = scenes_with_an_end();
-  EXPECT_NE(changed_by_others(all, 64, 20), std::vector<std::string>{});
+  ASSERT_GE(all.size(), 24U);
+  EXPECT_NE(changed_by_others(std::span(all).first(24), 64, 20), std::vector<std::string>{});
 }
 
 // Fourteen stacks have 168 contacts, more than one island may have to be solved directly.
