@@ -175,9 +175,10 @@ void CommandExecutor::change_shape(const SetShape& command, const geometry::Asse
   world_.joint_registry.move_frames(body, body_pose(old_asset, {}), body_pose(asset, {}));
   world_.joint_registry.forget_impulses_of(body);
   world_.contacts.forget_manifolds();
-  if (is_surface(old, old_asset) != is_surface(record, asset))
-    world_.body_registry.drop_contacts_of(body);
+  const bool changes_pairs = is_surface(old, old_asset) != is_surface(record, asset);
+  if (changes_pairs) world_.body_registry.drop_contacts_of(body);
   world_.cache.set_asset(body, asset);
+  if (changes_pairs) world_.joint_registry.rebuild();
   if (forget_terrain_of(world_, body)) refresh_terrain(world_);
   set_recycling_pose(record);
   begin_rest(record, world_.sleep_flags.rest_rules());
