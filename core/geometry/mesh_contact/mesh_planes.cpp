@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/unset_array.h"
 #include "core/geometry/contact/feature/contact_feature.h"
 #include "core/geometry/contact/manifold/manifold_reduction.h"
 #include "core/geometry/convex/shape_traits.h"
@@ -178,7 +179,7 @@ class PointPool {
     const auto kept = static_cast<std::size_t>(reduce_to_four(supporting_ones(all), k_area_shift));
     std::array<ManifoldPoint, k_max_manifold_points> chosen;
     for (std::size_t i = 0; i < kept; ++i)
-      chosen[i] = *std::ranges::find(points_, polygon[i].feature, &ManifoldPoint::feature);
+      chosen[i] = *std::ranges::find(points(), polygon[i].feature, &ManifoldPoint::feature);
     own_.fill(0);
     count_ = 0;
     for (std::size_t i = 0; i < kept; ++i)
@@ -186,7 +187,7 @@ class PointPool {
   }
 
   [[nodiscard]] std::span<const ManifoldPoint> points() const {
-    return std::span(points_).first(count_);
+    return std::span(points_.data(), count_);
   }
 
  private:
@@ -208,7 +209,7 @@ class PointPool {
   /// Features from triangles may repeat by accident: the deepest stays, of equals the first by
   /// place. The key is the whole point.
   void drop_repeats() {
-    const auto used = std::span(points_).first(count_);
+    const std::span used(points_.data(), count_);
     std::ranges::sort(used, {}, [](const ManifoldPoint& p) {
       return std::tuple(p.feature, p.separation, p.anchor_b.x, p.anchor_b.y, p.anchor_b.z,
                         p.anchor_a.x, p.anchor_a.y, p.anchor_a.z);
@@ -220,7 +221,7 @@ class PointPool {
   }
 
   int axis_;
-  std::array<ManifoldPoint, k_capacity> points_;
+  UnsetArray<ManifoldPoint, k_capacity> points_;
   std::array<std::uint8_t, k_max_polytope_vertices> own_{};  ///< places + 1 of own features
   std::size_t count_ = 0;
 };
@@ -263,7 +264,7 @@ class FacingVertices {
 
   const MeshContactFrame& frame_;
   ContactFeature feature_;
-  std::array<RawVec, k_max_polytope_face_edges> local_;  ///< in the triangles' frame
+  UnsetArray<RawVec, k_max_polytope_face_edges> local_;  ///< in the triangles' frame
 };
 
 /// A contact's place in the order of groups.
@@ -352,14 +353,14 @@ void make_keys_unique(MeshManifolds& out) {
 void merge_planes(std::span<const TriangleContact> contacts, const MeshContactFrame& frame,
                   MeshManifolds& out) {
   LKS_CHECK(contacts.size() <= TriangleContacts::k_capacity);
-  std::array<Member, TriangleContacts::k_capacity> members;
+  UnsetArray<Member, TriangleContacts::k_capacity> members;
   std::size_t count = 0;
   for (const TriangleContact& contact : contacts) {
     if (contact.manifold.count == 0 && !contact.on_face) continue;
     const Vec3<Unit> normal = rotate_inverse(frame.rotation, contact.manifold.normal);
     members[count++] = {plane_of(normal), &contact};
   }
-  const std::span<Member> used = std::span(members).first(count);
+  const std::span<Member> used(members.data(), count);
   std::ranges::sort(used, {}, &Member::key);
   out.count = 0;
   out.left_out = 0;

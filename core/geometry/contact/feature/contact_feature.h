@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/unset_array.h"
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/distance/manifold.h"
 #include "core/geometry/numeric/q50.h"
@@ -11,7 +12,6 @@
 namespace lockstone::geometry {
 
 struct FeaturePoint {
-  // No initialisers: an array of these is long, and little of it is used.
   RawVec at;         ///< from the shape's centre, world axes, fine
   std::uint32_t id;  ///< unique in the shape, below 2^16
 };
@@ -22,7 +22,7 @@ struct ContactFeature {
   bool is_flat = false;  ///< a face: `normal` is its outward normal
   Vec3<Unit> normal{};
   Length radius{};  ///< by which the points are inflated
-  std::array<FeaturePoint, k_max_polytope_face_edges> points;
+  UnsetArray<FeaturePoint, k_max_polytope_face_edges> points;
 
   void add(const RawVec& at, std::uint32_t id) {
     points[static_cast<std::size_t>(count++)] = {at, id};

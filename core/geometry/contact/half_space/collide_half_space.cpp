@@ -4,6 +4,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/base/unset_array.h"
 #include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/contact/feature/contact_feature.h"
 #include "core/geometry/contact/half_space/plane_meeting.h"
@@ -28,7 +29,7 @@ void add_below(Manifold& manifold, const PlaneMeeting& plane, const RawVec& poin
 /// Vertices of one face, in a frame on the plane.
 struct LowPolygon {
   std::array<FaceVertex, k_max_polytope_face_edges> vertices;
-  std::array<RawVec, k_max_polytope_face_edges> points;  ///< relative to B's centre, world axes
+  UnsetArray<RawVec, k_max_polytope_face_edges> points;  ///< relative to B's centre, world axes
   int count = 0;
   int shift = k_fine_per_length + 3;  ///< coordinates within ±4096 m differ by less than 2^30 so
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/unset_array.h"
 #include "core/geometry/distance/gjk/simplex.h"
 
 namespace lockstone::geometry {
@@ -65,7 +66,7 @@ class ExpandingPolytope {
     std::uint8_t to = 0;
   };
   struct Rim {
-    std::array<Edge, static_cast<std::size_t>(3 * k_max_expanding_faces)> edges;
+    UnsetArray<Edge, static_cast<std::size_t>(3 * k_max_expanding_faces)> edges;
     std::size_t count = 0;
     void add(Edge edge);
   };
@@ -78,8 +79,8 @@ class ExpandingPolytope {
 
   int vertex_count_ = 0;
   int face_count_ = 0;
-  std::array<DifferenceVertex, k_max_expanding_vertices> vertices_;
-  std::array<ExpandingFace, k_max_expanding_faces> faces_;
+  UnsetArray<DifferenceVertex, k_max_expanding_vertices> vertices_;
+  UnsetArray<ExpandingFace, k_max_expanding_faces> faces_;
 };
 
 }  // namespace lockstone::geometry

@@ -9,6 +9,7 @@
 
 #include <lockstone/transform.h>
 
+#include "core/base/unset_array.h"
 #include "core/geometry/distance/cores/convex_core.h"
 #include "core/math/trig.h"
 
@@ -58,7 +59,7 @@ struct Projection {
   Metres rate = 0;          ///< of the centre of rotation, in a frame at rest
   Metres turning_rate = 0;  ///< ≥ |speed by turning| of every vertex, likewise
   Metres acceleration = 0;  ///< ≥ |acceleration| of every vertex in the frame
-  std::array<Line, k_max_polytope_vertices> lines;
+  UnsetArray<Line, k_max_polytope_vertices> lines;
 
   /// The greatest of the vertices after a step, without acceleration.
   [[nodiscard]] Metres greatest(Unit step) const;
