@@ -18,6 +18,11 @@ struct GeneralState {
   Triple angular_velocity{};
 };
 
+/// With which a body comes.
+[[nodiscard]] inline GeneralState coming(const GeneralBody& body) {
+  return {body.position, body.orientation, body.velocity, body.angular_velocity};
+}
+
 /// Plays one scene, which must outlive it. Sleep is off unless the scene asks for it.
 class GeneralEngine {
  public:
@@ -28,6 +33,8 @@ class GeneralEngine {
   /// A sixtieth of a second.
   virtual void step() = 0;
   virtual void set_motion(int body, const Triple& velocity, const Triple& angular_velocity) = 0;
+  virtual void set_gravity(const Triple& gravity) = 0;
+  /// Of an absent body: with which it comes.
   [[nodiscard]] virtual GeneralState state(int body) const = 0;
   [[nodiscard]] virtual bool asleep(int body) const = 0;
   /// Whether any trigger saw the body in the last step.

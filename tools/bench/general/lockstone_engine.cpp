@@ -147,6 +147,7 @@ BodyDef body_of(const GeneralBody& body, const AssetPtr& asset) {
   def.material.density = fixed<Density>(body.density);
   def.material.friction = fixed<Coefficient>(body.friction);
   def.material.restitution = fixed<Coefficient>(body.restitution);
+  def.surface_motion.velocity = fixed<SolverVelocity>(body.surface);
   def.is_trigger = body.trigger;
   def.is_bullet = body.bullet;
   return def;
@@ -215,8 +216,10 @@ class LockstoneGeneral final : public GeneralEngine {
   }
 
   void change(const GeneralChange& change) override {
-    for (const int index : change.gone)
+    for (const int index : change.gone) {
       (void)world_.apply(DestroyBody{body(index)});
+      bodies_[static_cast<std::size_t>(index)] = {};
+    }
     for (const int index : change.come) {
       const auto i = static_cast<std::size_t>(index);
       bodies_[i] = world_.create_body(body_of(scene_.bodies[i], assets_.of_body[i])).value();
@@ -237,7 +240,11 @@ class LockstoneGeneral final : public GeneralEngine {
     (void)world_.apply(SetVelocity{body(index), fixed<Velocity>(velocity)});
     (void)world_.apply(SetAngularVelocity{body(index), fixed<AngularVelocity>(angular_velocity)});
   }
+  void set_gravity(const Triple& gravity) override {
+    (void)world_.apply(SetGravity{fixed<Acceleration>(gravity)});
+  }
   [[nodiscard]] GeneralState state(int index) const override {
+    if (body(index) == BodyHandle{}) return coming(scene_.bodies[static_cast<std::size_t>(index)]);
     const BodyView view = world_.body(body(index));
     const Quat& q = view.orientation;
     return {triple(view.position),

@@ -84,5 +84,9 @@ void add_rest_families(std::vector<Family>& all);
 void add_machine_families(std::vector<Family>& all);
 void add_furniture_families(std::vector<Family>& all);
 void add_jumble_families(std::vector<Family>& all);
+void add_event_families(std::vector<Family>& all);
+void add_driven_families(std::vector<Family>& all);
+void add_strike_families(std::vector<Family>& all);
+void add_shape_families(std::vector<Family>& all);
 
 }  // namespace lockstone::bench

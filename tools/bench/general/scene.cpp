@@ -29,11 +29,17 @@ void settle(GeneralScene& scene) {
     settle(body.orientation);
     settle(body.velocity);
     settle(body.angular_velocity);
+    settle(body.surface);
     body.density = settled(body.density);
     body.friction = settled(body.friction);
     body.restitution = settled(body.restitution);
     for (Triple& point : body.points)
       settle(point);
+    for (GeneralPart& part : body.parts) {
+      settle(part.size);
+      settle(part.position);
+      settle(part.orientation);
+    }
   }
   for (GeneralJoint& joint : scene.joints) {
     settle(joint.anchor_a);
@@ -49,6 +55,8 @@ void settle(GeneralScene& scene) {
     settle(move.velocity);
     settle(move.angular_velocity);
   }
+  for (GeneralPull& pull : scene.pulls)
+    settle(pull.gravity);
 }
 
 void watch_all(GeneralScene& scene) {
@@ -97,6 +105,10 @@ const std::vector<Family>& families() {
     add_machine_families(list);
     add_furniture_families(list);
     add_jumble_families(list);
+    add_event_families(list);
+    add_driven_families(list);
+    add_strike_families(list);
+    add_shape_families(list);
     return list;
   }();
   return all;
@@ -143,8 +155,8 @@ std::vector<std::uint8_t> bytes_of(const GeneralScene& scene) {
     out.add(body);
   for (const GeneralBody& b : scene.bodies) {
     out.all(b.form, b.motion, b.from, b.until, b.size, b.position, b.orientation, b.velocity,
-            b.angular_velocity, b.density, b.friction, b.restitution, b.collides, b.trigger,
-            b.bullet);
+            b.angular_velocity, b.surface, b.density, b.friction, b.restitution, b.collides,
+            b.trigger, b.bullet);
     for (const Triple& point : b.points)
       out.add(point);
     for (const auto& triangle : b.triangles)
@@ -157,12 +169,14 @@ std::vector<std::uint8_t> bytes_of(const GeneralScene& scene) {
             j.upper, j.cone, j.speed, j.effort, j.target, j.hertz, j.damping, j.turn);
   for (const GeneralMove& m : scene.moves)
     out.all(m.tick, m.body, m.velocity, m.angular_velocity);
+  for (const GeneralPull& p : scene.pulls)
+    out.all(p.tick, p.gravity);
   return std::move(out.bytes);
 }
 
 namespace {
 
-Triple extent_of(const GeneralBody& body) {
+Triple extent_of(const GeneralShape& body) {
   Triple low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
   for (const Triple& point : body.points) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -173,9 +187,7 @@ Triple extent_of(const GeneralBody& body) {
   return 0.5 * (high - low);
 }
 
-}  // namespace
-
-double volume_of(const GeneralBody& body) {
+double volume_of_shape(const GeneralShape& body) {
   constexpr double pi = std::numbers::pi;
   const Triple& s = body.size;
   switch (body.form) {
@@ -192,6 +204,16 @@ double volume_of(const GeneralBody& body) {
   }
   const Triple half = extent_of(body);
   return 4 * half[0] * half[1] * half[2];  // about half of the box
+}
+
+}  // namespace
+
+double volume_of(const GeneralBody& body) {
+  if (body.form != Form::compound) return volume_of_shape(body);
+  double sum = 0;
+  for (const GeneralPart& part : body.parts)
+    sum += volume_of_shape(part);
+  return sum;
 }
 
 double mass_of(const GeneralBody& body) {

@@ -37,7 +37,7 @@ struct GeneralPart : GeneralShape {
 
 inline constexpr int k_for_ever = 1 << 30;
 
-/// A mesh or a compound does not belong to a dynamic body.
+/// A mesh does not belong to a dynamic body.
 struct GeneralBody : GeneralShape {
   std::vector<GeneralPart> parts;  ///< of a compound
   Motion motion = Motion::dynamic;
@@ -47,6 +47,7 @@ struct GeneralBody : GeneralShape {
   Turn orientation{0, 0, 0, 1};
   Triple velocity{};
   Triple angular_velocity{};
+  Triple surface{};  ///< m/s in its own frame, of a belt: the surface of a fixed body that moves
   double density = 1000;
   double friction = 0.5;
   double restitution = 0;
@@ -90,6 +91,12 @@ struct GeneralMove {
   Triple angular_velocity{};
 };
 
+/// Gravity from the tick that begins at a time.
+struct GeneralPull {
+  int tick = 0;
+  Triple gravity{};  ///< m/s²
+};
+
 /// The bodies that go and come before a tick, and the joints that come with them: their indices.
 /// Joints go with their bodies.
 struct GeneralChange {
@@ -117,6 +124,8 @@ enum class Judge {
   bounce,        ///< m, the highest that a watched body rises above its beginning
   slowed,        ///< speed lost at the end, relative to the beginning, beyond `expected`
   awake,         ///< share of dynamic bodies not asleep at the end
+  outside,       ///< m, the farthest that a watched body ends beyond `expected` from the origin,
+                 ///< along any axis
 };
 
 struct GeneralScene {
@@ -124,7 +133,8 @@ struct GeneralScene {
   std::uint64_t seed = 0;
   int ticks = 600;  ///< of a sixtieth of a second
   double gravity = 9.81;
-  double low = 0;  ///< height that potential energy counts from: nothing can fall below it
+  double low = 0;  ///< height that potential energy counts from, along the gravity of the moment:
+                   ///< nothing can fall below it
   bool may_sleep = false;
   bool passive = true;     ///< nothing adds energy: no motors, springs or moves
   bool must_rest = false;  ///< all of it, before the end
@@ -135,6 +145,7 @@ struct GeneralScene {
   std::vector<GeneralBody> bodies;
   std::vector<GeneralJoint> joints;
   std::vector<GeneralMove> moves;
+  std::vector<GeneralPull> pulls;
 };
 
 class SceneMaker;

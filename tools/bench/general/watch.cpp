@@ -23,14 +23,15 @@ void raise(double& worst, double x) {
   worst = std::max(worst, bounded(x));
 }
 
-double energy_of(const GeneralScene& scene, const GeneralBody& body, const GeneralState& state) {
+double energy_of(const GeneralBody& body, const GeneralState& state, const Triple& gravity,
+                 double low) {
   const Triple spin = turned(inverse(state.orientation), state.angular_velocity);
   const Triple moments = moments_of(body);
   double turning = 0;
   for (std::size_t i = 0; i < 3; ++i)
     turning += 0.5 * moments[i] * spin[i] * spin[i];
-  return turning + mass_of(body) * (0.5 * dot(state.velocity, state.velocity) +
-                                    scene.gravity * (state.position[1] - scene.low));
+  return turning + mass_of(body) * (0.5 * dot(state.velocity, state.velocity) -
+                                    dot(gravity, state.position) - norm(gravity) * low);
 }
 
 // How far a joint is from holding.
@@ -68,14 +69,33 @@ double speed_of(const GeneralJoint& joint, const GeneralState& a, const GeneralS
 
 class Watch {
  public:
-  Watch(const GeneralScene& scene, const GeneralEngine& engine) : scene_(scene), engine_(engine) {
+  Watch(const GeneralScene& scene, const GeneralEngine& engine)
+      : scene_(scene), engine_(engine), gravity_{0, -scene.gravity, 0} {
     look();
     begin_ = now_;
     seen_.resize(scene.bodies.size());
     lowest_ = first_ = energy();
     judges_energy_ = scene.passive;
     for (const GeneralBody& body : scene.bodies)  // whose moments are not known exactly
-      if (body.moves() && body.form == Form::hull) judges_energy_ = false;
+      if (body.moves() && (body.form == Form::hull || body.form == Form::compound))
+        judges_energy_ = false;
+  }
+
+  /// Energy counts from here where something changes.
+  void before(int tick) {
+    tick_ = tick;
+    const auto is_now = [&](const auto& event) { return event.tick == tick; };
+    const auto comes_or_goes = [&](const GeneralBody& body) {
+      return body.from == tick || body.until == tick;
+    };
+    for (const GeneralPull& pull : scene_.pulls)
+      if (is_now(pull)) gravity_ = pull.gravity;
+    if (!std::ranges::any_of(scene_.pulls, is_now) && !std::ranges::any_of(scene_.moves, is_now) &&
+        !std::ranges::any_of(scene_.bodies, comes_or_goes))
+      return;
+    look();
+    lowest_ = energy();
+    first_ = std::max(first_, lowest_);
   }
 
   void after(int tick) {
@@ -91,7 +111,7 @@ class Watch {
     figures_.error = bounded(error());
     double asleep = 0, all = 0;
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      if (!scene_.bodies[i].moves()) continue;
+      if (!scene_.bodies[i].moves() || !is_there(i)) continue;
       all += 1;
       asleep += engine_.asleep(static_cast<int>(i)) ? 1 : 0;
     }
@@ -113,19 +133,26 @@ class Watch {
   [[nodiscard]] double energy() const {
     double sum = 0;
     for (std::size_t i = 0; i < now_.size(); ++i)
-      if (scene_.bodies[i].moves()) sum += energy_of(scene_, scene_.bodies[i], now_[i]);
+      if (scene_.bodies[i].moves() && is_there(i))
+        sum += energy_of(scene_.bodies[i], now_[i], gravity_, scene_.low);
     return sum;
+  }
+
+  [[nodiscard]] bool is_there(std::size_t body) const {
+    return scene_.bodies[body].from <= tick_ && tick_ < scene_.bodies[body].until;
   }
 
   void see_joints() {
     for (const GeneralJoint& joint : scene_.joints)
-      raise(figures_.gap, gap_of(joint, at(joint.a), at(joint.b)));
+      if (is_there(static_cast<std::size_t>(joint.a)) &&
+          is_there(static_cast<std::size_t>(joint.b)))
+        raise(figures_.gap, gap_of(joint, at(joint.a), at(joint.b)));
   }
 
   void see_bodies(int tick) {
     bool moves = false;
     for (std::size_t i = 0; i < now_.size(); ++i) {
-      if (!scene_.bodies[i].moves()) continue;
+      if (!scene_.bodies[i].moves() || !is_there(i)) continue;
       const double speed = norm(now_[i].velocity), spin = norm(now_[i].angular_velocity);
       raise(figures_.speed, speed);
       moves = moves || !(speed < k_still_speed && spin < k_still_spin);
@@ -133,6 +160,7 @@ class Watch {
     if (moves) figures_.rest = (tick + 2) / 60.0;
     for (const int body : scene_.watched) {
       const auto i = static_cast<std::size_t>(body);
+      if (!is_there(i)) continue;
       raise(farthest_, norm(now_[i].position - begin_[i].position));
       raise(highest_, now_[i].position[1] - begin_[i].position[1]);
       if (scene_.judge == Judge::sunk)
@@ -177,6 +205,10 @@ class Watch {
     for (const int body : scene_.watched)
       raise(worst, value(body));
     return worst;
+  }
+
+  [[nodiscard]] static double reach(const Triple& at) {
+    return std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
   }
 
   [[nodiscard]] double spring_angle() const {
@@ -237,6 +269,8 @@ class Watch {
           return 1 -
                  at(body).velocity[0] / scene_.bodies[static_cast<std::size_t>(body)].velocity[0];
         });
+      case Judge::outside:
+        return most([&](int body) { return reach(at(body).position) - scene_.expected; });
       case Judge::awake:
         break;
     }
@@ -249,6 +283,8 @@ class Watch {
   std::vector<bool> seen_;
   GeneralFigures figures_;
   bool judges_energy_ = false;
+  int tick_ = 0;
+  Triple gravity_{};
   double first_ = 0, lowest_ = 0, farthest_ = 0, highest_ = 0, deepest_ = 0, off_ = 0;
 };
 
@@ -257,6 +293,8 @@ class Watch {
 void set_motions(GeneralEngine& engine, const GeneralScene& scene, int tick) {
   for (const GeneralMove& move : scene.moves)
     if (move.tick == tick) engine.set_motion(move.body, move.velocity, move.angular_velocity);
+  for (const GeneralPull& pull : scene.pulls)
+    if (pull.tick == tick) engine.set_gravity(pull.gravity);
 }
 
 std::optional<GeneralFigures> play_general(const GeneralMaker& maker, const GeneralScene& scene,
@@ -264,10 +302,13 @@ std::optional<GeneralFigures> play_general(const GeneralMaker& maker, const Gene
   const std::unique_ptr<GeneralEngine> engine = maker.make(scene, substeps);
   if (engine == nullptr) return std::nullopt;
   Watch watch(scene, *engine);
+  const std::vector<GeneralChange> changes = changes_of(scene);
   std::uint64_t taken = 0;
   std::uint32_t contacts = 0;
   for (int tick = 0; tick < scene.ticks; ++tick) {
+    if (tick > 0) engine->change(changes[static_cast<std::size_t>(tick)]);
     set_motions(*engine, scene, tick);
+    watch.before(tick);
     const std::uint64_t begin = thread_nanoseconds();
     engine->step();
     taken += thread_nanoseconds() - begin;
@@ -285,6 +326,7 @@ std::string draw_general(const GeneralMaker& maker, const GeneralScene& scene, i
   constexpr int k_pictures = 6, k_columns = 3;
   const std::unique_ptr<GeneralEngine> engine = maker.make(scene, substeps);
   if (engine == nullptr) return {};
+  const std::vector<GeneralChange> changes = changes_of(scene);
   std::vector<std::string> pictures;
   for (int tick = 0; tick <= scene.ticks; ++tick) {
     if (tick * (k_pictures - 1) / scene.ticks == static_cast<int>(pictures.size())) {
@@ -293,6 +335,7 @@ std::string draw_general(const GeneralMaker& maker, const GeneralScene& scene, i
           engine->picture(scene.family + ":" + std::to_string(scene.seed) + ", " + seconds + " s"));
       if (pictures.back().empty()) return {};
     }
+    if (tick > 0) engine->change(changes[static_cast<std::size_t>(tick)]);
     set_motions(*engine, scene, tick);
     engine->step();
   }

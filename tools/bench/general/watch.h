@@ -27,7 +27,7 @@ struct GeneralFigures {
 /// Energy that may be regained by rounding and by pushing bodies out.
 inline constexpr double k_gain_bound = 0.05;
 
-/// Sets the velocities that the scene's moves name, before the tick.
+/// Sets velocities and gravity as the scene's moves and pulls say, before the tick.
 void set_motions(GeneralEngine& engine, const GeneralScene& scene, int tick);
 
 /// Plays the scene to its end; nothing when the engine cannot.

@@ -57,6 +57,7 @@ b3ShapeDef shape_def(const GeneralBody& body) {
   def.density = static_cast<float>(body.density);
   def.baseMaterial.friction = static_cast<float>(body.friction);
   def.baseMaterial.restitution = static_cast<float>(body.restitution);
+  def.baseMaterial.tangentVelocity = vec(body.surface);
   if (!body.collides) def.filter.maskBits = 0;
   def.isSensor = body.trigger;
   def.enableSensorEvents = true;
@@ -235,8 +236,10 @@ class Box3dGeneral final : public GeneralEngine {
   }
 
   void change(const GeneralChange& change) override {
-    for (const int index : change.gone)
+    for (const int index : change.gone) {
       b3DestroyBody(body(index));
+      bodies_[static_cast<std::size_t>(index)] = b3_nullBodyId;
+    }
     for (const int index : change.come) {
       const auto i = static_cast<std::size_t>(index);
       const b3BodyDef def = body_def(scene_.bodies[i]);
@@ -253,7 +256,13 @@ class Box3dGeneral final : public GeneralEngine {
     b3Body_SetLinearVelocity(body(index), vec(velocity));
     b3Body_SetAngularVelocity(body(index), vec(angular_velocity));
   }
+  void set_gravity(const Triple& gravity) override {
+    b3World_SetGravity(world_, vec(gravity));
+    for (const b3BodyId id : bodies_)
+      if (B3_IS_NON_NULL(id)) b3Body_SetAwake(id, true);
+  }
   [[nodiscard]] GeneralState state(int index) const override {
+    if (B3_IS_NULL(body(index))) return coming(scene_.bodies[static_cast<std::size_t>(index)]);
     const b3BodyId id = body(index);
     const b3Quat q = b3Body_GetRotation(id);
     return {triple(b3ToVec3(b3Body_GetPosition(id))),

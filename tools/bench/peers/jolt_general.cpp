@@ -69,15 +69,30 @@ class Pairs final : public JPH::ObjectLayerPairFilter {
   }
 };
 
-// Which bodies a sensor saw in the last step.
-class Sensors final : public JPH::ContactListener {
+// Which bodies a sensor saw in the last step, and belts: their surfaces move.
+class Listener final : public JPH::ContactListener {
  public:
   void OnContactAdded(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold&,
-                      JPH::ContactSettings&) override {
+                      JPH::ContactSettings& settings) override {
+    drive(a, b, settings);
     if (a.IsSensor()) seen.insert(b.GetID());
     if (b.IsSensor()) seen.insert(a.GetID());
   }
+  void OnContactPersisted(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold&,
+                          JPH::ContactSettings& settings) override {
+    drive(a, b, settings);
+  }
   std::set<JPH::BodyID> seen;
+  std::map<JPH::BodyID, JPH::Vec3> belts;
+
+ private:
+  [[nodiscard]] JPH::Vec3 surface_of(const JPH::Body& body) const {
+    const auto belt = belts.find(body.GetID());
+    return belt == belts.end() ? JPH::Vec3::sZero() : body.GetRotation() * belt->second;
+  }
+  void drive(const JPH::Body& a, const JPH::Body& b, JPH::ContactSettings& settings) const {
+    if (!belts.empty()) settings.mRelativeLinearSurfaceVelocity = surface_of(b) - surface_of(a);
+  }
 };
 
 // Bodies that joints connect are one group, which excludes the pairs that a joint ties.
@@ -158,8 +173,10 @@ class JoltGeneral final : public GeneralEngine {
     system_.Init(static_cast<JPH::uint>(bodies_.size()) + 1, 0, room_of(scene), room_of(scene),
                  layers_, trees_, pairs_);
     system_.SetGravity(vec({0, -scene.gravity, 0}));
-    const auto is_trigger = [](const GeneralBody& body) { return body.trigger; };
-    if (std::ranges::any_of(scene.bodies, is_trigger)) system_.SetContactListener(&sensors_);
+    const auto asks = [](const GeneralBody& body) {
+      return body.trigger || body.surface != Triple{};
+    };
+    if (std::ranges::any_of(scene.bodies, asks)) system_.SetContactListener(&listener_);
     change(changes_of(scene).front());
     system_.OptimizeBroadPhase();
   }
@@ -174,6 +191,7 @@ class JoltGeneral final : public GeneralEngine {
   void change(const GeneralChange& change) override {
     for (const int index : change.gone)
       remove(static_cast<std::size_t>(index));
+    if (!change.gone.empty()) wake();
     for (const int index : change.come)
       add(index);
     for (const int index : change.joints) {
@@ -184,7 +202,7 @@ class JoltGeneral final : public GeneralEngine {
     }
   }
   void step() override {
-    sensors_.seen.clear();
+    listener_.seen.clear();
     const JPH::EPhysicsUpdateError error = system_.Update(1.0F / 60, substeps_, &memory_, &jobs_);
     had_room_ = had_room_ && error == JPH::EPhysicsUpdateError::None;
   }
@@ -193,7 +211,12 @@ class JoltGeneral final : public GeneralEngine {
     interface().SetLinearAndAngularVelocity(at(body)->GetID(), vec(velocity),
                                             vec(angular_velocity));
   }
+  void set_gravity(const Triple& gravity) override {
+    system_.SetGravity(vec(gravity));
+    wake();
+  }
   [[nodiscard]] GeneralState state(int index) const override {
+    if (at(index) == nullptr) return coming(scene_.bodies[static_cast<std::size_t>(index)]);
     const JPH::Body& body = *at(index);
     const JPH::Quat q = body.GetRotation();
     return {triple(JPH::Vec3(body.GetPosition())),
@@ -203,7 +226,7 @@ class JoltGeneral final : public GeneralEngine {
   }
   [[nodiscard]] bool asleep(int body) const override { return !at(body)->IsActive(); }
   [[nodiscard]] bool entered(int body) const override {
-    return sensors_.seen.count(at(body)->GetID()) > 0;
+    return listener_.seen.count(at(body)->GetID()) > 0;
   }
 
  private:
@@ -217,7 +240,12 @@ class JoltGeneral final : public GeneralEngine {
     def.mCollisionGroup = groups_.of(index);
     JPH::Body*& made_body = bodies_[static_cast<std::size_t>(index)];
     made_body = interface().CreateBody(def);
+    if (body.surface != Triple{}) listener_.belts[made_body->GetID()] = vec(body.surface);
     interface().AddBody(made_body->GetID(), JPH::EActivation::Activate);
+  }
+  void wake() {
+    for (const JPH::Body* body : bodies_)
+      if (body != nullptr && body->IsDynamic()) interface().ActivateBody(body->GetID());
   }
   // Its joints first.
   void remove(std::size_t index) {
@@ -240,7 +268,7 @@ class JoltGeneral final : public GeneralEngine {
   Layers layers_;
   Trees trees_;
   Pairs pairs_;
-  Sensors sensors_;
+  Listener listener_;
   JPH::TempAllocatorImpl memory_;
   int substeps_;
   JPH::JobSystemSingleThreaded jobs_;
