@@ -24,11 +24,11 @@ constexpr int k_coarser_bits = 5;
 // solution does not fit.
 constexpr int k_residual_bits = 27, k_more_drop = 4, k_most_drop = 42;
 
-// Passes before the first direct step, and after each; direct steps.
+// Passes before the first direct step, and after each; direct steps at most.
 struct Effort {
   int first_passes, passes, direct_steps;
 };
-constexpr Effort k_of_contacts{2, 4, 3}, k_with_joints{4, 4, 1};
+constexpr Effort k_of_contacts{2, 4, 6}, k_with_joints{4, 4, 1};
 
 // Friction that is as near to its limit as 2^-this may slide.
 constexpr int k_near_shift = 8;
@@ -333,7 +333,8 @@ bool PhaseSolver::move_centres() {
   return moves;
 }
 
-// Until no row changes, or the steps are used up.
+// Until no row changes, or the steps are used up. After one that goes nowhere the next would hardly
+// go farther.
 void PhaseSolver::iterate() {
   LKS_ASSERT(!island_.state.is_factored || island_.state.was_factored);
   // Resting bodies are solved by the factor at hand: passes alone would leave them creeping.
@@ -342,12 +343,13 @@ void PhaseSolver::iterate() {
   if (island_.state.is_factored || !island_.state.was_factored) (void)direct_step();
   bool done = is_solved_;
   const Effort& effort = island_.joints.empty() ? k_of_contacts : k_with_joints;
+  bool is_last = false;
   for (int step = 0; !done && fits_; ++step) {
     for (int i = 0; i < (step == 0 ? effort.first_passes : effort.passes) && !done; ++i)
       done = pass();
-    if (step == effort.direct_steps || done) break;
+    if (is_last || done) break;
     mark_active();
-    (void)direct_step();
+    is_last = !direct_step() || step + 1 == effort.direct_steps;
     done = is_solved_;
   }
 }
