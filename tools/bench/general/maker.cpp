@@ -136,4 +136,30 @@ void SceneMaker::judge(Judge judge, double bound, double seconds) {
   scene.ticks = static_cast<int>(std::lround(60 * seconds));
 }
 
+int any_body(SceneMaker& m, double size, const Triple& at, double density) {
+  const auto part = [&] { return size * m.random.between(0.3, 1); };
+  const int kind = m.random.count(0, 2);
+  if (kind == 0) return m.ball(part(), at, density);
+  if (kind == 1) {
+    const double radius = 0.5 * part();
+    return m.capsule(radius, part(), at, density);
+  }
+  const double x = part(), y = part();
+  return m.box({x, y, part()}, at, density);
+}
+
+Triple cell(int i, int side, double pitch) {
+  const int layer = i / (side * side), place = i % (side * side);
+  const double middle = 0.5 * (side - 1);
+  return {pitch * (place % side - middle), pitch * (layer + 0.5), pitch * (place / side - middle)};
+}
+
+GeneralPart slab(const Triple& half, const Triple& at, const Turn& turn) {
+  GeneralPart part;
+  part.size = half;
+  part.position = at;
+  part.orientation = turn;
+  return part;
+}
+
 }  // namespace lockstone::bench

@@ -71,6 +71,16 @@ class SceneMaker {
 /// A trunk, a head and four limbs of two parts each.
 void add_ragdoll(SceneMaker& maker, const Triple& at);
 
+/// A box, ball or capsule of about this size, m.
+int any_body(SceneMaker& m, double size, const Triple& at, double density);
+
+/// Place `i` of layers of side × side, `pitch` apart, over the origin.
+[[nodiscard]] Triple cell(int i, int side, double pitch);
+
+/// A box as a part of a compound.
+[[nodiscard]] GeneralPart slab(const Triple& half, const Triple& at,
+                               const Turn& turn = {0, 0, 0, 1});
+
 /// The families of each kind.
 void add_loop_families(std::vector<Family>& all);
 void add_drive_families(std::vector<Family>& all);

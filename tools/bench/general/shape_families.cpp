@@ -11,14 +11,6 @@ namespace {
 
 using namespace general;
 
-GeneralPart slab(const Triple& half, const Triple& at, const Turn& turn = {0, 0, 0, 1}) {
-  GeneralPart part;
-  part.size = half;
-  part.position = at;
-  part.orientation = turn;
-  return part;
-}
-
 GeneralPart bar(double radius, double half, const Triple& at, const Turn& turn) {
   GeneralPart part = slab({radius, half, 0}, at, turn);
   part.form = Form::capsule;
@@ -32,12 +24,6 @@ int compound(SceneMaker& m, std::vector<GeneralPart> parts, const Triple& at, do
   body.position = at;
   body.density = density;
   return m.add(body);
-}
-
-Triple cell(int i, int side, double pitch) {
-  const int layer = i / (side * side), place = i % (side * side);
-  const double middle = 0.5 * (side - 1);
-  return {pitch * (place % side - middle), pitch * (layer + 0.5), pitch * (place / side - middle)};
 }
 
 void pen(SceneMaker& m, double half, double high) {
