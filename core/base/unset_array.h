@@ -29,7 +29,6 @@ class UnsetArray {
 
   [[nodiscard]] T* data() { return values_; }
   [[nodiscard]] const T* data() const { return values_; }
-  [[nodiscard]] static constexpr std::size_t size() { return N; }
 
  private:
   union {

@@ -8,6 +8,7 @@
 #include "core/geometry/dispatch/polytope_kernels.h"
 #include "core/geometry/distance/contact_point.h"
 #include "tests/geometry/assets/asset_parts.h"
+#include "tests/geometry/identical_manifolds.h"
 
 namespace lockstone::test {
 namespace {
@@ -110,8 +111,8 @@ class CollectContacts final : public geometry::PartVisitor {
     const bool is_sphere = pose_.shape.kind == ShapeKind::sphere;
     const PosedShape triangle{part.shape, pose_.rotation, part.polytope};
     const Manifold manifold = is_sphere ? collide_sphere_front(vertices, pose_)
-                                        : part.polytope->kernels->collide(triangle, pose_.posed(),
-                                                                          pose_.at, pose_.margin, {});
+                                        : part.polytope->kernels->collide(
+                                              triangle, pose_.posed(), pose_.at, pose_.margin, {});
     TriangleContact contact =
         contact_with(part.index, vertices, part.triangle.active_edges, part.surface);
     contact.manifold = manifold;
@@ -375,25 +376,6 @@ TEST(MeshContacts, KeepTheNearestPointOfARoughSurface) {
       ASSERT_NEAR(static_cast<double>(least(result)), static_cast<double>(expected), 3e-6);
     }
   }
-}
-
-bool are_identical(const MeshManifolds& a, const MeshManifolds& b) {
-  const auto same_point = [](const ManifoldPoint& p, const ManifoldPoint& q) {
-    return p.anchor_a == q.anchor_a && p.anchor_b == q.anchor_b && p.separation == q.separation &&
-           p.feature == q.feature;
-  };
-  if (a.count != b.count) return false;
-  for (std::size_t i = 0; i < a.count; ++i) {
-    const MeshManifold& x = a.manifolds[i];
-    const MeshManifold& y = b.manifolds[i];
-    if (x.key != y.key || x.part != y.part || x.manifold.normal != y.manifold.normal ||
-        x.manifold.count != y.manifold.count) {
-      return false;
-    }
-    for (std::size_t k = 0; k < static_cast<std::size_t>(x.manifold.count); ++k)
-      if (!same_point(x.manifold.points[k], y.manifold.points[k])) return false;
-  }
-  return true;
 }
 
 TEST(MeshContacts, DoNotDependOnTheOrderOfArrivalEvenBeyondTheCapacity) {

@@ -9,13 +9,13 @@
 #include "core/geometry/convex/asset_geometry.h"
 #include "core/geometry/dispatch/polytope_kernels.h"
 #include "tests/geometry/assets/asset_parts.h"
+#include "tests/geometry/identical_manifolds.h"
 
 namespace lockstone::test {
 namespace {
 
 using geometry::LocalBounds;
 using geometry::MeshContactFrame;
-using geometry::MeshManifold;
 using geometry::MeshManifolds;
 using geometry::Part;
 using geometry::TriangleContacts;
@@ -36,26 +36,6 @@ class CollideAll final : public geometry::PartVisitor {
   const MeshContactFrame& frame_;
   TriangleContacts& out_;
 };
-
-void expect_same(const Manifold& a, const Manifold& b) {
-  ASSERT_EQ(a.normal, b.normal);
-  ASSERT_EQ(a.count, b.count);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(a.count); ++i) {
-    ASSERT_EQ(a.points[i].anchor_a, b.points[i].anchor_a);
-    ASSERT_EQ(a.points[i].anchor_b, b.points[i].anchor_b);
-    ASSERT_EQ(a.points[i].separation, b.points[i].separation);
-    ASSERT_EQ(a.points[i].feature, b.points[i].feature);
-  }
-}
-
-void expect_same(const MeshManifolds& a, const MeshManifolds& b) {
-  ASSERT_EQ(a.count, b.count);
-  for (std::size_t i = 0; i < a.count; ++i) {
-    ASSERT_EQ(a.manifolds[i].key, b.manifolds[i].key);
-    ASSERT_EQ(a.manifolds[i].part, b.manifolds[i].part);
-    ASSERT_NO_FATAL_FAILURE(expect_same(a.manifolds[i].manifold, b.manifolds[i].manifold));
-  }
-}
 
 // Shapes of any size and pose over, in and beside rough ground of cells of any size.
 TEST(MeshKernels, FindTheContactsOfAllTriangles) {
@@ -87,7 +67,7 @@ TEST(MeshKernels, FindTheContactsOfAllTriangles) {
       mesh->geometry().visit_parts(region, all);
       geometry::join_triangle_contacts(*found, frame, expected);
       geometry::mesh_kernels().collide(mesh->geometry(), frame, region, *found, here);
-      ASSERT_NO_FATAL_FAILURE(expect_same(here, expected)) << round << ", " << i;
+      ASSERT_TRUE(are_identical(here, expected)) << round << ", " << i;
       contacts += static_cast<int>(here.count);
     }
   }

@@ -45,8 +45,7 @@ std::vector<Triple> places_after(const GeneralScene& scene) {
   const auto engine = lockstone_general().make(scene, 4);
   const std::vector<GeneralChange> changes = changes_of(scene);
   for (int tick = 0; tick < scene.ticks; ++tick) {
-    if (tick > 0) engine->change(changes[static_cast<std::size_t>(tick)]);
-    set_motions(*engine, scene, tick);
+    begin_tick(*engine, scene, changes, tick);
     engine->step();
   }
   EXPECT_TRUE(engine->had_room());

@@ -53,9 +53,7 @@ class Player {
         engine_(lockstone_general().make(scene_, k_substeps)) {}
 
   void step(int tick) {
-    const auto at = static_cast<std::size_t>(tick);
-    if (tick > 0 && at < changes_.size()) engine_->change(changes_[at]);
-    set_motions(*engine_, scene_, tick);
+    begin_tick(*engine_, scene_, changes_, tick);
     engine_->step();
   }
   [[nodiscard]] std::size_t count() const { return scene_.bodies.size(); }

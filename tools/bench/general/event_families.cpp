@@ -14,13 +14,6 @@ void wide_ground(SceneMaker& m) {
   m.fix(m.box({450, 1, 450}, {0, -1, 0}));
 }
 
-void pen(SceneMaker& m, double half, double high, double low = 0) {
-  for (const double side : {-1.0, 1.0}) {
-    m.fix(m.box({0.5, high, half + 1}, {side * (half + 0.5), low + high, 0}));
-    m.fix(m.box({half + 1, high, 0.5}, {0, low + high, side * (half + 0.5)}));
-  }
-}
-
 // Bodies of any mass at one place, some of them a second later.
 void fill_spawn(SceneMaker& m) {
   const int n = m.count(2, 30);
@@ -145,8 +138,7 @@ void fill_trapdoor(SceneMaker& m) {
     m.turn(body, m.any_turn());
   }
   m.set_friction(m.random.between(0.3, 0.9));
-  m.scene.may_sleep = m.scene.must_rest = true;
-  m.judge(Judge::awake, 0, 15);
+  heap(m, 15);
 }
 
 // Bodies in a closed room whose gravity turns three times.

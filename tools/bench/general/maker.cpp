@@ -162,4 +162,16 @@ GeneralPart slab(const Triple& half, const Triple& at, const Turn& turn) {
   return part;
 }
 
+void pen(SceneMaker& m, double half, double high) {
+  for (const double side : {-1.0, 1.0}) {
+    m.fix(m.box({0.5, high, half + 1}, {side * (half + 0.5), high, 0}));
+    m.fix(m.box({half + 1, high, 0.5}, {0, high, side * (half + 0.5)}));
+  }
+}
+
+void heap(SceneMaker& m, double seconds) {
+  m.scene.may_sleep = m.scene.must_rest = true;
+  m.judge(Judge::awake, 0, seconds);
+}
+
 }  // namespace lockstone::bench

@@ -81,6 +81,12 @@ int any_body(SceneMaker& m, double size, const Triple& at, double density);
 [[nodiscard]] GeneralPart slab(const Triple& half, const Triple& at,
                                const Turn& turn = {0, 0, 0, 1});
 
+/// Four fixed walls around a square of this half width, over the ground.
+void pen(SceneMaker& m, double half, double high);
+
+/// A pile that has to sleep by the end.
+void heap(SceneMaker& m, double seconds);
+
 /// The families of each kind.
 void add_loop_families(std::vector<Family>& all);
 void add_drive_families(std::vector<Family>& all);

@@ -11,12 +11,6 @@ namespace {
 
 using namespace general;
 
-void heap(SceneMaker& m, double seconds) {
-  m.scene.may_sleep = true;
-  m.scene.must_rest = true;
-  m.judge(Judge::awake, 0, seconds);
-}
-
 std::vector<Triple> stone(SceneMaker& m, double size) {
   std::vector<Triple> points;
   const int n = m.random.count(6, 16);

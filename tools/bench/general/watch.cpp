@@ -290,7 +290,10 @@ class Watch {
 
 }  // namespace
 
-void set_motions(GeneralEngine& engine, const GeneralScene& scene, int tick) {
+void begin_tick(GeneralEngine& engine, const GeneralScene& scene,
+                std::span<const GeneralChange> changes, int tick) {
+  const auto at = static_cast<std::size_t>(tick);
+  if (tick > 0 && at < changes.size()) engine.change(changes[at]);
   for (const GeneralMove& move : scene.moves)
     if (move.tick == tick) engine.set_motion(move.body, move.velocity, move.angular_velocity);
   for (const GeneralPull& pull : scene.pulls)
@@ -306,8 +309,7 @@ std::optional<GeneralFigures> play_general(const GeneralMaker& maker, const Gene
   std::uint64_t taken = 0;
   std::uint32_t contacts = 0;
   for (int tick = 0; tick < scene.ticks; ++tick) {
-    if (tick > 0) engine->change(changes[static_cast<std::size_t>(tick)]);
-    set_motions(*engine, scene, tick);
+    begin_tick(*engine, scene, changes, tick);
     watch.before(tick);
     const std::uint64_t begin = thread_nanoseconds();
     engine->step();
@@ -335,8 +337,7 @@ std::string draw_general(const GeneralMaker& maker, const GeneralScene& scene, i
           engine->picture(scene.family + ":" + std::to_string(scene.seed) + ", " + seconds + " s"));
       if (pictures.back().empty()) return {};
     }
-    if (tick > 0) engine->change(changes[static_cast<std::size_t>(tick)]);
-    set_motions(*engine, scene, tick);
+    begin_tick(*engine, scene, changes, tick);
     engine->step();
   }
   return render::strip(pictures, render::Picture{}, k_columns);

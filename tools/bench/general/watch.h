@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "tools/bench/general/engine.h"
@@ -27,8 +28,10 @@ struct GeneralFigures {
 /// Energy that may be regained by rounding and by pushing bodies out.
 inline constexpr double k_gain_bound = 0.05;
 
-/// Sets velocities and gravity as the scene's moves and pulls say, before the tick.
-void set_motions(GeneralEngine& engine, const GeneralScene& scene, int tick);
+/// Before a tick: bodies come and go as `changes_of(scene)` says, those of the first tick excepted,
+/// which an engine begins with; then velocities and gravity are set.
+void begin_tick(GeneralEngine& engine, const GeneralScene& scene,
+                std::span<const GeneralChange> changes, int tick);
 
 /// Plays the scene to its end; nothing when the engine cannot.
 [[nodiscard]] std::optional<GeneralFigures> play_general(const GeneralMaker& maker,

@@ -1,7 +1,6 @@
 // The part of a convex shape that looks along a direction: a point, a segment or a polygon.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "core/base/unset_array.h"

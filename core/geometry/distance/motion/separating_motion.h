@@ -5,7 +5,6 @@
 // ends through every plane that stands still, and none that turns with it.
 #pragma once
 
-#include <array>
 
 #include <lockstone/transform.h>
 
