@@ -17,7 +17,7 @@ std::vector<StageKind> kinds_of(const SubstepSchedule& schedule) {
 TEST(SubstepSchedule, SolvesBeforePositionsMoveAndRelaxesAfter) {
   SubstepSchedule schedule(2);
   TickWork work;
-  work.bodies = 5;
+  work.bodies = work.staged_bodies = 5;
   work.contact_blocks[0] = 1;
   schedule.plan_substeps(work);
   const std::vector<StageKind> two = {
@@ -39,6 +39,32 @@ TEST(SubstepSchedule, OnlyRelaxesWhereAllContactsAreConverged) {
   schedule.plan_substeps(work);
   const std::vector<StageKind> expected = {StageKind::push_islands, StageKind::relax,
                                            StageKind::relax_islands, StageKind::end_islands};
+  EXPECT_EQ(kinds_of(schedule), expected);
+}
+
+TEST(SubstepSchedule, SolvesWholeIslandsOnceAfterTheSubstepsOfOthers) {
+  SubstepSchedule schedule(2);
+  TickWork work;
+  work.staged_bodies = 3;
+  work.contact_blocks[0] = 1;
+  work.whole = 4;
+  work.iterates = work.relaxes = false;
+  schedule.plan_substeps(work);
+  const std::vector<StageKind> expected = {StageKind::velocities, StageKind::positions,
+                                           StageKind::velocities, StageKind::positions,
+                                           StageKind::whole_islands};
+  EXPECT_EQ(kinds_of(schedule), expected);
+}
+
+TEST(SubstepSchedule, LimitsTheEnergyOfWatchedIslandsBeforePositionsMoveAndAfter) {
+  SubstepSchedule schedule(1);
+  TickWork work;
+  work.staged_bodies = work.watched = 2;
+  work.has_joints = true;
+  schedule.plan_substeps(work);
+  const std::vector<StageKind> expected = {StageKind::note_energies,  StageKind::velocities,
+                                           StageKind::limit_moves,    StageKind::positions,
+                                           StageKind::limit_energies, StageKind::end_joints};
   EXPECT_EQ(kinds_of(schedule), expected);
 }
 

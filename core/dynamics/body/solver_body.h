@@ -21,6 +21,7 @@ struct alignas(64) SolverBody {
   bool is_alone = false;    // touches one body that no impulse moves, and nothing else
   bool rests = false;       // of a pile, and hardly moves when the tick begins
   bool is_heavier = false;  // its joints take it to be heavier to turn than it is
+  bool is_whole = false;    // `WholeIslands` moves it
   alignas(64) std::array<std::int64_t, 3> gain{};  // of velocity in a substep, by gravity and
                                                    // forces; Q32
   std::array<std::int64_t, 3> spin_gain{};         // of spin, by torques

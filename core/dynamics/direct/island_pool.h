@@ -24,6 +24,7 @@ struct IslandState {
   bool warms = false;         ///< this phase begins with the impulses of the tick before
   bool was_factored = false;  ///< in this tick
   bool is_factored = false;   ///< for the rows that are active
+  bool is_whole = false;      ///< `WholeIslands` solves it
 };
 
 /// Where blocks of the bodies of a contact or a joint are in the factor.
@@ -95,11 +96,13 @@ class IslandPool {
   /// Whether an island found no room since `clear`.
   [[nodiscard]] bool was_full() const { return was_full_ || factor_.pool_use().is_exhausted(); }
   [[nodiscard]] IslandView view(std::uint32_t island);
+  [[nodiscard]] const IslandState& state(std::uint32_t island) const {
+    return islands_[island].state;
+  }
   [[nodiscard]] BodyFactor& factor() { return factor_; }
 
   /// Of all islands.
   [[nodiscard]] std::span<ProximalContact> contacts() { return contacts_; }
-  [[nodiscard]] std::span<const std::uint32_t> bodies() const { return bodies_; }
 
  private:
   // Where an island's parts begin, and how many there are.

@@ -48,6 +48,7 @@ struct IslandTally {
   bool is_carried = false;        ///< a joint holds it to an immovable body, or has a drive
   bool is_loose = false;          ///< a loose pile, which iterations bring to rest
   bool is_converged = false;      ///< solved to convergence, by `BlockSolver`
+  std::uint32_t whole = 0;        ///< its number among those solved whole, from 1; 0: it is not
   std::uint32_t bodies = 0;       ///< dynamic ones
   std::uint32_t contacts = 0;
   std::uint32_t joints = 0;

@@ -11,13 +11,14 @@
 namespace lockstone {
 namespace {
 
-// In a substep: loads the next cluster while the work for one is done.
+// In a substep: loads the next cluster while the work for one is done. Skips those of whole
+// islands.
 template <class Work>
 void for_each_cluster(JointSystem& system, std::size_t first, std::size_t end, const Work& work) {
   LKS_ASSERT(end <= system.clusters.size());
   for (std::size_t i = first; i < end; ++i) {
     if (i + 1 < end) system.prefetch(system.clusters[i + 1]);
-    work(system.clusters[i]);
+    if (!system.clusters[i].is_whole) work(system.clusters[i]);
   }
 }
 
@@ -38,6 +39,7 @@ JointSolver::JointSolver(const TimeStep& step, const Capacities& most, bool solv
       locks_(system_, trees_, loops_),
       account_(system_, locks_),
       stages_(system_, locks_, account_),
+      whole_clusters_(system_, stages_, account_),
       island_joints_(system_) {}
 
 void JointSolver::clear(const AssetSet* assets) {
@@ -124,7 +126,7 @@ void JointSolver::place(const JointRun& run, std::size_t first, std::size_t end)
 void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
     LinkedBody& body = system_.bodies[i];
-    if (body.solver == 0) continue;
+    if (body.solver == 0 || body.is_whole) continue;
     move_body(run, body);
     if (!body.pushed) body.after = pose_after(run, body);
   }

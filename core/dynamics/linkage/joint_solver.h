@@ -14,6 +14,7 @@
 // | `TreeLocks`, `LoopLocks` | all locks of a group at once |
 // | `pulled_links` | inertia that keeps hard pulled links stable |
 // | `EnergyAccount` | keeps clusters from gaining energy |
+// | `WholeClusters` | the stages of single clusters |
 // | `IslandJoints` | joints in the problem of an island's contacts |
 //
 // docs/explanation/solver.md says how accurate this is.
@@ -24,6 +25,7 @@
 
 #include "core/dynamics/linkage/cluster/cluster_stages.h"
 #include "core/dynamics/linkage/cluster/energy_account.h"
+#include "core/dynamics/linkage/cluster/whole_clusters.h"
 #include "core/dynamics/linkage/island_joints.h"
 #include "core/dynamics/linkage/joint_planner.h"
 #include "core/dynamics/linkage/locks/lock_solver.h"
@@ -86,7 +88,7 @@ class JointSolver {
     return static_cast<std::uint32_t>(system_.clusters.size());
   }
 
-  // The stages of `ClusterStages`.
+  // The stages of `ClusterStages`; after `prepare` without clusters of whole islands.
   void prepare(const JointRun& run, std::size_t first, std::size_t end);
   void warm_start(const JointRun& run, std::size_t first, std::size_t end);
   void solve(const JointRun& run, std::size_t first, std::size_t end);
@@ -112,9 +114,11 @@ class JointSolver {
     return system_.added[added].joint;
   }
 
+  /// The clusters one by one, for islands that are solved whole.
+  [[nodiscard]] WholeClusters& whole_clusters() { return whole_clusters_; }
+
   /// For the problems of islands with contacts.
   [[nodiscard]] IslandJoints& island_joints() { return island_joints_; }
-  [[nodiscard]] const IslandJoints& island_joints() const { return island_joints_; }
 
   /// The spin that a body of the world with this surface velocity has by its own inertia, which
   /// `spin` need not be: a body may be taken to be heavier to turn.
@@ -148,6 +152,7 @@ class JointSolver {
   LockSolver locks_;
   EnergyAccount account_;
   ClusterStages stages_;
+  WholeClusters whole_clusters_;
   IslandJoints island_joints_;
 };
 

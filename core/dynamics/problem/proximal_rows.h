@@ -48,6 +48,7 @@ struct ProximalContact : ContactPair {
   std::uint32_t row_a = 0, row_b = 0;  // where their velocities stand
   std::uint32_t points = 0;
   std::uint32_t rows = 0;  // points and 2 or 3 of friction
+  bool is_whole = false;   // of an island that is solved whole
   std::array<ProximalRow, k_contact_rows> all{};
   std::int64_t radius = 0;  // of the twist, ρ/ℓ, Q30
   RawVec3 arc{};            // gain of the surfaces' drive from substep to substep, m/s, Q20

@@ -10,6 +10,33 @@
 #include "core/dynamics/state/limits.h"
 
 namespace lockstone {
+namespace {
+
+// Calls `work(number)` for bodies `first` … `end` − 1 that are not of whole islands.
+template <class Work>
+void for_staged(std::span<const SolverBody> bodies, std::size_t first, std::size_t end,
+                const Work& work) {
+  LKS_ASSERT(end <= bodies.size());
+  for (auto i = static_cast<std::uint32_t>(std::max<std::size_t>(first, 1)); i < end; ++i)
+    if (!bodies[i].is_whole) work(i);
+}
+
+// A stage of the limit of energy, for islands that are not solved whole.
+void limit_energies(StageKind kind, EnergyLimit& limit, const EnergyLimit::Bodies& all,
+                    std::size_t first, std::size_t end) {
+  LKS_ASSERT(end <= limit.watched());
+  for (auto i = static_cast<std::uint32_t>(first); i < end; ++i) {
+    if (all.islands.tally(limit.island(i)).whole != 0) continue;
+    if (kind == StageKind::note_energies)
+      limit.note(all, i);
+    else if (kind == StageKind::limit_moves)
+      limit.limit_moves(all, i);
+    else
+      limit.limit_gains(all, i);
+  }
+}
+
+}  // namespace
 
 ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
                              std::size_t contact_capacity, std::size_t joint_capacity,
@@ -30,10 +57,21 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       schedule_(step.substeps) {
   if (joint_capacity != 0) energy_limit_.reserve(body_capacity);
   if (effort_.most_island_contacts() == 0) return;
-  converged_ = std::make_unique<ConvergedIslands>(
+  converged_ = std::make_unique<Converged>(
       step, body_capacity, contact_capacity, joint_capacity,
-      std::min(converged_contacts, contact_capacity), effort_.most_island_contacts());
+      std::min(converged_contacts, contact_capacity), effort_.most_island_contacts(),
+      WholeIslands::Parts{bodies_, contacts_, islands_, joints_, constraints_, energy_limit_,
+                          totals_});
 }
+
+ContactSolver::Converged::Converged(const TimeStep& step, std::size_t body_capacity,
+                                    std::size_t contact_capacity, std::size_t joint_capacity,
+                                    std::size_t converged_contacts,
+                                    std::uint32_t most_island_contacts,
+                                    const WholeIslands::Parts& parts)
+    : islands(step, body_capacity, contact_capacity, joint_capacity, converged_contacts,
+              most_island_contacts),
+      whole(body_capacity, converged_contacts, joint_capacity, step.substeps, parts, islands) {}
 
 ContactSolver::~ContactSolver() = default;
 
@@ -61,13 +99,18 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   if (constraints_.has_restitution() || joints_.solver().has_own())
     islands_.find_energy_sources(scene, bodies_, contacts_);
   energy_limit_.begin(energy_bodies());
-  if (converged_ != nullptr)
-    converged_->begin(scene, bodies_, contacts_, islands_, constraints_.layout(),
-                      constraints_.run());
+  if (converged_ != nullptr) {
+    const ConvergedIslands::Tick tick{scene, bodies_, contacts_, islands_, constraints_.layout()};
+    parallel.for_each({converged_->islands.count(), 1},
+                      [&](std::size_t first, std::size_t end, std::uint32_t) {
+                        converged_->islands.begin(tick, constraints_.run(), first, end);
+                      });
+    converged_->whole.plan();
+  }
   warm_start_.find(scene, constraints_.run(), parallel);
   totals_.begin(
       scene.watched, contacts_, constraints_,
-      converged_ == nullptr ? std::span<const ProximalContact>() : converged_->contacts());
+      converged_ == nullptr ? std::span<const ProximalContact>() : converged_->islands.contacts());
 }
 
 // The bodies, contacts, joints and islands of the tick.
@@ -78,7 +121,7 @@ void ContactSolver::gather(const ContactScene& scene, Parallel& parallel) {
   joints_.gather(scene);
   islands_.build(scene, bodies_, contacts_);
   if (converged_ != nullptr)
-    converged_->plan(scene, bodies_, contacts_, effort_, islands_, joints_);
+    converged_->islands.plan(scene, bodies_, contacts_, effort_, islands_, joints_);
   islands_.find_stacks();
   bodies_.reserve_rows();
   joints_.reserve_rows();
@@ -90,14 +133,15 @@ void ContactSolver::gather(const ContactScene& scene, Parallel& parallel) {
 TickWork ContactSolver::work() const {
   TickWork work;
   work.rows = bodies_.row_count();
-  work.bodies = bodies_.count();
+  work.bodies = work.staged_bodies = bodies_.count();
   work.clusters = joints_.solver().cluster_count();
   work.joined = joints_.solver().body_count();
-  work.converged = converged_ == nullptr ? 0 : converged_->count();
-  work.iterates = converged_ == nullptr || converged_->contacts().size() != contacts_.size();
+  work.converged = converged_ == nullptr ? 0 : converged_->islands.count();
+  work.iterates =
+      converged_ == nullptr || converged_->islands.contacts().size() != contacts_.size();
   work.has_joints = !joints_.empty();
   work.has_impacts = !impacts_.empty();
-  work.watches_energy = energy_limit_.watches();
+  work.watched = energy_limit_.watched();
   work.watches_impulses = !totals_.empty();
   work.bounces = constraints_.has_restitution();
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
@@ -141,7 +185,10 @@ void ContactSolver::fill_bodies(const ContactScene& scene, std::size_t first, st
 
 void ContactSolver::run(Parallel& parallel) {
   if (contacts_.size() == 0 && joints_.empty()) return;
-  schedule_.plan_substeps(work());
+  TickWork staged = work();
+  if (converged_ != nullptr) converged_->whole.leave_out(staged);
+  LKS_ASSERT(staged.staged_bodies <= staged.bodies);
+  schedule_.plan_substeps(staged);
   schedule_.run(parallel, [&](const Stage& stage, std::size_t first, std::size_t end) {
     run_piece(stage, first, end);
   });
@@ -152,9 +199,13 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
   JointSolver& joints = joints_.solver();
   switch (stage.kind) {
     case StageKind::note_energies:
-      return energy_limit_.note(energy_bodies());
+    case StageKind::limit_moves:
+    case StageKind::limit_energies:
+      return limit_energies(stage.kind, energy_limit_, energy_bodies(), first, end);
     case StageKind::velocities:
-      return bodies_.integrate_velocities(stage.substep == 0, first, end);
+      return for_staged(bodies_.constants(), first, end, [&](std::uint32_t number) {
+        bodies_.integrate_velocity(stage.substep == 0, number);
+      });
     case StageKind::note_pushes:
       return warm_start_.gain_limit().note_pushes(first, end);
     case StageKind::limit_repeats:
@@ -168,16 +219,17 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return constraints_.solve(stage.color, first, end);
     case StageKind::push_islands:
     case StageKind::relax_islands:
-      return converged_->solve(constraints_.run(), joints_, first, end,
-                               stage.kind == StageKind::push_islands);
+      return converged_->islands.for_staged(first, end, [&](std::uint32_t island) {
+        converged_->islands.solve(constraints_.run(), joints_, island,
+                                  stage.kind == StageKind::push_islands);
+      });
     case StageKind::solve_balls:
       return joints_.balls().solve_positions(joints_.balls_run(), stage.color, first, end);
     case StageKind::solve_joints:
       return joints.solve(joints_.run(), first, end);
-    case StageKind::limit_moves:
-      return energy_limit_.limit_moves(energy_bodies());
     case StageKind::positions:
-      return bodies_.integrate_positions(first, end);
+      return for_staged(bodies_.constants(), first, end,
+                        [this](std::uint32_t number) { bodies_.integrate_position(number); });
     case StageKind::move_joined:
       return joints.move(joints_.run(), first, end);
     case StageKind::relax_joints:
@@ -190,12 +242,14 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return impacts_.run(bodies_.rows());
     case StageKind::relax:
       return constraints_.relax(stage.color, first, end, tick_.first_substep + stage.substep);
-    case StageKind::limit_energies:
-      return energy_limit_.limit_gains(energy_bodies());
     case StageKind::note_impulses:
       return totals_.note(constraints_.run());
+    case StageKind::whole_islands:
+      return converged_->whole.solve(first, end);
     case StageKind::end_islands:
-      return converged_->end(constraints_.run(), first, end);
+      return converged_->islands.for_staged(first, end, [this](std::uint32_t island) {
+        converged_->islands.end(constraints_.run(), island);
+      });
     case StageKind::end_joints:
       return joints.end(joints_.run());
     case StageKind::keep_speeds:
@@ -275,14 +329,14 @@ SolverCounts ContactSolver::counts() const {
                       energy_limit_.count() + joints_.solver().energy_limits(),
                       joints_.solver().pool_use()};
   LKS_ASSERT(graph.count(k_overflow_color) <= contacts_.size());
-  if (converged_ != nullptr && converged_->pool().was_full()) counts.pools.note_exhausted();
+  if (converged_ != nullptr && converged_->islands.pool().was_full()) counts.pools.note_exhausted();
   return counts;
 }
 
 void ContactSolver::list_shares(std::vector<IslandShare>& to) const {
   to.clear();
   if (converged_ == nullptr || tick_.is_idle) return;
-  const IslandPool& pool = converged_->pool();
+  const IslandPool& pool = converged_->islands.pool();
   LKS_ASSERT(is_reserved(to, pool.count()));
   for (std::uint32_t island = 0; island < pool.count(); ++island) {
     LKS_ASSERT(pool.first_body(island) != 0);
@@ -291,7 +345,7 @@ void ContactSolver::list_shares(std::vector<IslandShare>& to) const {
 }
 
 PoolShare ContactSolver::room() const {
-  return converged_ == nullptr ? PoolShare{} : converged_->pool().room();
+  return converged_ == nullptr ? PoolShare{} : converged_->islands.pool().room();
 }
 
 }  // namespace lockstone

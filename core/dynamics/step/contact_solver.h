@@ -30,6 +30,7 @@
 #include "core/dynamics/step/limits/bounce_limit.h"
 #include "core/dynamics/step/limits/energy_limit.h"
 #include "core/dynamics/step/substep_schedule.h"
+#include "core/dynamics/step/whole_islands.h"
 
 namespace lockstone {
 
@@ -116,6 +117,15 @@ class ContactSolver {
     bool is_idle = false;  // neither contacts nor joints
   };
 
+  struct Converged {
+    Converged(const TimeStep& step, std::size_t body_capacity, std::size_t contact_capacity,
+              std::size_t joint_capacity, std::size_t converged_contacts,
+              std::uint32_t most_island_contacts, const WholeIslands::Parts& parts);
+
+    ConvergedIslands islands;
+    WholeIslands whole;
+  };
+
   void gather(const ContactScene& scene, Parallel& parallel);
   [[nodiscard]] TickWork work() const;
   void fill_bodies(const ContactScene& scene, std::size_t first, std::size_t end);
@@ -133,7 +143,7 @@ class ContactSolver {
   IslandBuilder islands_;
   EffortPolicy effort_;
   ContactConstraints constraints_;
-  std::unique_ptr<ConvergedIslands> converged_;  // null where no island is solved to convergence
+  std::unique_ptr<Converged> converged_;  // null where no island is solved to convergence
   StackWarmStart warm_start_;
   ImpulseTotals totals_;
   BallImpacts impacts_;

@@ -54,7 +54,7 @@ void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodie
 }
 
 void ConvergedIslands::list(const ContactList& contacts, const IslandBuilder& islands,
-                            const TickJoints& joints, std::uint32_t island) {
+                            TickJoints& joints, std::uint32_t island) {
   bodies_.clear();
   contacts_.clear();
   joints_.clear();
@@ -73,29 +73,41 @@ void ConvergedIslands::list(const ContactList& contacts, const IslandBuilder& is
   });
 }
 
-void ConvergedIslands::begin(const ContactScene& scene, SolverBodies& bodies,
-                             const ContactList& contacts, const IslandBuilder& islands,
-                             const ConstraintLayout& layout, const ContactRun& run) {
-  for (ProximalContact& contact : solver_.islands().contacts()) {
-    const ContactRef& ref = contacts[contact.id];
-    LKS_ASSERT(contact.a < bodies.count() && contact.b < bodies.count());
-    const Vec3<SolverVelocity>& arc = scene.surfaces[ref.manifold].arc;
+IslandView ConvergedIslands::take(std::uint32_t island) {
+  const IslandView view = solver_.islands().view(island);
+  LKS_ASSERT(!view.contacts.empty() && !view.state.is_whole);
+  view.state.is_whole = true;
+  return view;
+}
+
+void ConvergedIslands::begin(const Tick& tick, const ContactRun& run, std::size_t first,
+                             std::size_t end) {
+  LKS_ASSERT(first <= end && end <= count());
+  const std::int64_t weight = weight_of(tick.scene.gravity, step_);
+  for (auto i = static_cast<std::uint32_t>(first); i < end; ++i)
+    begin(tick, run, i, weight);
+}
+
+void ConvergedIslands::begin(const Tick& tick, const ContactRun& run, std::uint32_t island,
+                             std::int64_t weight) {
+  const IslandView view = solver_.islands().view(island);
+  for (ProximalContact& contact : view.contacts) {
+    const ContactRef& ref = tick.contacts[contact.id];
+    LKS_ASSERT(contact.a < tick.bodies.count() && contact.b < tick.bodies.count());
+    const Vec3<SolverVelocity>& arc = tick.scene.surfaces[ref.manifold].arc;
     contact.arc = {arc.x.raw, arc.y.raw, arc.z.raw};
-    contact.place = layout.lane_of(contact.id);
-    contact.row_a = bodies.row_of(ref.a);
-    contact.row_b = bodies.row_of(ref.b);
+    contact.place = tick.layout.lane_of(contact.id);
+    contact.row_a = tick.bodies.row_of(ref.a);
+    contact.row_b = tick.bodies.row_of(ref.b);
   }
+  LKS_ASSERT(!view.bodies.empty() && weight >= 0);
   // The first phase adds a scaled warm start itself: the velocities that single contacts of the
   // last tick give to a body may exceed all limits.
-  for (const std::uint32_t body : solver_.islands().bodies())
-    bodies.before()[body] = {};
-  const std::int64_t weight = weight_of(scene.gravity, step_);
-  for (std::uint32_t i = 0; i < solver_.count(); ++i) {
-    const std::uint32_t island = islands.all().of(solver_.islands().first_body(i));
-    const IslandView view = solver_.islands().view(i);
-    view.state.is_measured = !view.joints.empty() || islands.tally(island).has_ball_impacts;
-    solver_.begin(run, i, weight, step_.substeps);
-  }
+  for (const std::uint32_t body : view.bodies)
+    tick.bodies.before()[body] = {};
+  const IslandTally& tally = tick.islands.tally(tick.islands.all().of(view.bodies[0]));
+  view.state.is_measured = !view.joints.empty() || tally.has_ball_impacts;
+  solver_.begin(run, island, weight, step_.substeps);
 }
 
 }  // namespace lockstone

@@ -35,25 +35,44 @@ class ConvergedIslands {
   void plan(const ContactScene& scene, const SolverBodies& bodies, const ContactList& contacts,
             const EffortPolicy& effort, IslandBuilder& islands, TickJoints& joints);
 
-  /// Once blocks are prepared: takes the contacts over from the iterations.
-  void begin(const ContactScene& scene, SolverBodies& bodies, const ContactList& contacts,
-             const IslandBuilder& islands, const ConstraintLayout& layout, const ContactRun& run);
+  /// The parts of a tick that `begin` reads; of `bodies` it writes to `before`.
+  struct Tick {
+    const ContactScene& scene;
+    SolverBodies& bodies;
+    const ContactList& contacts;
+    const IslandBuilder& islands;
+    const ConstraintLayout& layout;
+  };
+  /// Once blocks are prepared: takes the contacts of islands `first` … `end` − 1 over from the
+  /// iterations.
+  void begin(const Tick& tick, const ContactRun& run, std::size_t first, std::size_t end);
 
-  /// One phase of islands `first` … `end` − 1, by their numbers here. With `pushes_out` overlap
-  /// goes.
-  void solve(const ContactRun& run, TickJoints& joints, std::size_t first, std::size_t end,
-             bool pushes_out) {
-    for (auto i = static_cast<std::uint32_t>(first); i < end; ++i)
-      solver_.solve(run, {joints.solver().island_joints(), joints.run()}, i, pushes_out);
+  /// The bodies, contacts and joints of all islands.
+  [[nodiscard]] const IslandLists& lists() const { return lists_; }
+
+  /// Leaves an island, by its number here, to `WholeIslands`.
+  IslandView take(std::uint32_t island);
+  [[nodiscard]] std::span<const ProximalContact> contacts(std::uint32_t island) {
+    return solver_.islands().view(island).contacts;
   }
-  /// After the last phase.
-  void end(const ContactRun& run, std::size_t first, std::size_t end) {
+
+  /// One phase of an island. With `pushes_out` overlap goes.
+  void solve(const ContactRun& run, TickJoints& joints, std::uint32_t island, bool pushes_out) {
+    solver_.solve(run, {joints.solver().island_joints(), joints.run()}, island, pushes_out);
+  }
+  /// After its last phase.
+  void end(const ContactRun& run, std::uint32_t island) { solver_.end(run, island); }
+
+  /// Calls `work(island)` for islands `first` … `end` − 1 that are not solved whole.
+  template <class Work>
+  void for_staged(std::size_t first, std::size_t end, const Work& work) const {
     for (auto i = static_cast<std::uint32_t>(first); i < end; ++i)
-      solver_.end(run, i);
+      if (!solver_.islands().state(i).is_whole) work(i);
   }
 
  private:
-  void list(const ContactList& contacts, const IslandBuilder& islands, const TickJoints& joints,
+  void begin(const Tick& tick, const ContactRun& run, std::uint32_t island, std::int64_t weight);
+  void list(const ContactList& contacts, const IslandBuilder& islands, TickJoints& joints,
             std::uint32_t island);
 
   TimeStep step_;

@@ -44,10 +44,11 @@ void SubstepSchedule::plan_preparation(const TickWork& work) {
 }
 
 void SubstepSchedule::plan_substeps(const TickWork& work) {
-  LKS_ASSERT(!work.watches_energy || work.has_joints);
+  LKS_ASSERT(work.watched == 0 || work.has_joints);
   clear();
   for (int substep = 0; substep < substeps_; ++substep)
     plan_substep(work, static_cast<std::uint8_t>(substep));
+  add({StageKind::whole_islands}, work.whole, k_one_grain);
   add({StageKind::end_islands}, work.converged, k_one_grain);
   add_serial(StageKind::end_joints, work.has_joints);
   if (!work.bounces) return;
@@ -60,8 +61,8 @@ void SubstepSchedule::plan_substeps(const TickWork& work) {
 // separations, as they relax.
 void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   LKS_ASSERT(substep < substeps());
-  add_serial(StageKind::note_energies, work.watches_energy);
-  add({StageKind::velocities, 0, substep}, work.bodies, k_body_grain);
+  add({StageKind::note_energies}, work.watched, k_one_grain);
+  add({StageKind::velocities, 0, substep}, work.staged_bodies, k_body_grain);
   if (substep != 0) add_gain_limit(StageKind::limit_repeats, work);
   add({StageKind::warm_joints}, work.clusters, k_one_grain);
   add_serial(StageKind::first_impacts, work.has_impacts);
@@ -70,18 +71,18 @@ void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   for (int i = 0; i < k_ball_passes; ++i)
     add_balls(StageKind::solve_balls, work);
   add({StageKind::solve_joints}, work.clusters, k_one_grain);
-  add_serial(StageKind::limit_moves, work.watches_energy);
-  add({StageKind::positions}, work.bodies, k_body_grain);
+  add({StageKind::limit_moves}, work.watched, k_one_grain);
+  add({StageKind::positions}, work.staged_bodies, k_body_grain);
   add({StageKind::move_joined}, work.joined, k_joined_grain);
   add({StageKind::relax_joints}, work.clusters, k_one_grain);
   add_balls(StageKind::update_balls, work);
   for (int i = 1; i < k_ball_passes; ++i)
     add_balls(StageKind::relax_balls, work);
   add_serial(StageKind::impacts, work.has_impacts);
-  add_contacts(StageKind::relax, work, substep);
+  if (work.relaxes) add_contacts(StageKind::relax, work, substep);
   add({StageKind::relax_islands}, work.converged, k_one_grain);
   add_gain_limit(StageKind::limit_gains, work);
-  add_serial(StageKind::limit_energies, work.watches_energy);
+  add({StageKind::limit_energies}, work.watched, k_one_grain);
   add_serial(StageKind::note_impulses, work.watches_impulses);
 }
 
@@ -104,7 +105,7 @@ void SubstepSchedule::add_serial(StageKind kind, bool is_due) {
 // The limit looks at islands one by one, only once a body was pushed hard.
 void SubstepSchedule::add_gain_limit(StageKind kind, const TickWork& work) {
   if (!work.iterates || work.contact_blocks == BlockCounts{}) return;
-  add({StageKind::note_pushes}, work.bodies, k_body_grain);
+  add({StageKind::note_pushes}, work.staged_bodies, k_body_grain);
   add_serial(kind, true);
 }
 

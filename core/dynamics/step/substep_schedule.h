@@ -41,6 +41,7 @@ enum class StageKind : std::uint8_t {
   limit_gains,
   limit_energies,
   note_impulses,
+  whole_islands,
   end_islands,
   end_joints,
   keep_speeds,
@@ -59,15 +60,18 @@ using BlockCounts = std::array<std::uint32_t, k_graph_colors + 1>;
 
 /// How much there is of each kind in a tick; a loop over none is left out.
 struct TickWork {
-  std::uint32_t rows = 0;       ///< of bodies
-  std::uint32_t bodies = 0;     ///< numbers
-  std::uint32_t clusters = 0;   ///< of joints
-  std::uint32_t joined = 0;     ///< bodies that joints move
-  std::uint32_t converged = 0;  ///< islands
+  std::uint32_t rows = 0;           ///< of bodies
+  std::uint32_t bodies = 0;         ///< numbers
+  std::uint32_t staged_bodies = 0;  ///< the same, or 0 where all are of whole islands
+  std::uint32_t clusters = 0;       ///< of joints
+  std::uint32_t joined = 0;         ///< bodies that joints move
+  std::uint32_t converged = 0;      ///< islands
+  std::uint32_t whole = 0;          ///< islands that are solved whole
+  std::uint32_t watched = 0;        ///< islands whose energy is limited
   bool has_joints = false;
   bool iterates = true;      ///< some contacts are of no converged island
+  bool relaxes = true;       ///< some contacts are of no whole island
   bool has_impacts = false;  ///< of balls
-  bool watches_energy = false;
   bool watches_impulses = false;
   bool bounces = false;
   BlockCounts contact_blocks{};

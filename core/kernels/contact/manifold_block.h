@@ -223,4 +223,8 @@ struct ManifoldKernels {
 /// The scalar twins, which define the results.
 extern const ManifoldKernels k_scalar_manifolds;
 
+/// Brings the separations of one manifold up to date, as `relax` does first.
+void move_separations(const DeltaPose* travel, ManifoldBlock& block, std::size_t lane,
+                      const SolverParams& rules);
+
 }  // namespace lockstone::lanes

@@ -11,4 +11,10 @@ constexpr ManifoldKernels k_scalar_manifolds{
     N_SCALAR_TWIN::prepare_manifolds, N_SCALAR_TWIN::solve_manifolds,
     N_SCALAR_TWIN::relax_manifolds, N_SCALAR_TWIN::bounce_manifolds};
 
+void move_separations(const DeltaPose* travel, ManifoldBlock& block, std::size_t lane,
+                      const SolverParams& rules) {
+  N_SCALAR_TWIN::move_separations(block, lane, N_SCALAR_TWIN::load_axes(block, lane),
+                                  travel->velocity.data(), rules);
+}
+
 }  // namespace lockstone::lanes

@@ -127,6 +127,7 @@ enum class Judge {
   outside,       ///< m, the farthest that a watched body ends beyond `expected` from the origin,
                  ///< along any axis
 };
+inline constexpr std::size_t k_judges = static_cast<std::size_t>(Judge::outside) + 1;
 
 struct GeneralScene {
   std::string family;

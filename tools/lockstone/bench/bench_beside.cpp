@@ -83,7 +83,9 @@ std::string command_of(const BesideRequest& request) {
   if (!request.vectors.empty()) command += fmt::format(" --vectors {}", request.vectors);
   if (request.scenes) command += " --peers";
   if (!request.peers.empty()) command += fmt::format(" {}", fmt::join(request.peers, ","));
-  if (request.islands) command += fmt::format(" --islands --most {}", request.most);
+  if (request.islands) command += " --islands";
+  if (!request.kinds.empty()) command += fmt::format(" {}", fmt::join(request.kinds, ","));
+  if (request.islands) command += fmt::format(" --most {}", request.most);
   if (!request.chart.empty()) command += fmt::format(" --chart {}", request.chart);
   return command + fmt::format(" --page {} --force", request.page);
 }
@@ -119,13 +121,19 @@ void add_beside_options(CLI::App& command, BesideRequest& request) {
                       "Instead: the scenes beside other engines, all in this build or those named")
           ->expected(0, k_most_names)
           ->delimiter(',');
-  command.parse_complete_callback([&request, peers] {
+  CLI::Option* islands =
+      command
+          .add_option("--islands", request.kinds,
+                      "Instead: worlds of many small islands beside other engines, of all kinds "
+                      "or those named: stacks, piles, ragdolls")
+          ->expected(0, k_most_names)
+          ->delimiter(',');
+  command.parse_complete_callback([&request, peers, islands] {
     request.scenes = peers->count() > 0;
-    std::erase_if(request.peers,
-                  [](const std::string& name) { return name.empty() || name == "{}"; });
+    request.islands = islands->count() > 0;
+    for (std::vector<std::string>* names : {&request.peers, &request.kinds})
+      std::erase_if(*names, [](const std::string& name) { return name.empty() || name == "{}"; });
   });
-  command.add_flag("--islands", request.islands,
-                   "Instead: worlds of many small islands beside other engines");
   command.add_option("--most", request.most, "Bodies of the largest such world: a power of ten")
       ->check(CLI::Range(k_fewest_bodies, 1'000'000))
       ->capture_default_str();
@@ -136,10 +144,15 @@ void add_beside_options(CLI::App& command, BesideRequest& request) {
 
 namespace {
 
-bool knows_all(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
+bool knows_all(const BesideRequest& request) {
+  for (const std::string& name : request.peers) {
     if (std::ranges::count(bench::general_peers(), name, &bench::GeneralMaker::name) > 0) continue;
     complain(fmt::format("no engine is named {}", name));
+    return false;
+  }
+  for (const std::string& name : request.kinds) {
+    if (std::ranges::count(bench::island_kinds(), name, &bench::IslandKind::name) > 0) continue;
+    complain(fmt::format("no kind of islands is named {}", name));
     return false;
   }
   return true;
@@ -148,7 +161,7 @@ bool knows_all(const std::vector<std::string>& names) {
 }  // namespace
 
 int bench_beside(const BesideRequest& request, std::span<const bench::SpeedScene* const> scenes) {
-  if (!knows_all(request.peers)) return k_usage;
+  if (!knows_all(request)) return k_usage;
   if (!may_write({request.page, request.force}) || !may_write({request.chart, request.force}))
     return k_unavailable;
   const bench::BesideOptions options = options_of(request);
@@ -163,7 +176,8 @@ int bench_beside(const BesideRequest& request, std::span<const bench::SpeedScene
   }
   if (request.islands) {
     for (const bench::IslandKind& kind : bench::island_kinds())
-      report.islands.push_back(play_islands(request, kind, options, progress));
+      if (request.kinds.empty() || std::ranges::count(request.kinds, kind.name) > 0)
+        report.islands.push_back(play_islands(request, kind, options, progress));
   }
   if (request.json) print_beside_json(report);
   if (!write_files(request, report)) return k_unavailable;

@@ -16,6 +16,7 @@ struct BesideRequest {
   std::vector<std::string> peers;  ///< names; none: all in this build
   bool scenes = false;
   bool islands = false;
+  std::vector<std::string> kinds;  ///< of islands; none: all
   int most = 10'000;  ///< bodies of the largest world of islands
   std::string page, chart;
 

@@ -62,6 +62,7 @@ struct JointCluster {
   std::uint32_t body_count = 0;
   std::int32_t substep = 0;  // number of the present one, from 1
   bool moves_first = false;  // positions go half a substep first
+  bool is_whole = false;     // its stages run with the rest of its island
 
   // Its account of energy.
   bool is_driven = false;   // by springs or motors

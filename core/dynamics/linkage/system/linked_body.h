@@ -27,6 +27,7 @@ struct LinkedBody {
   bool in_balls = false;           // a joint of it is left to the coloured balls
   bool centred = false;            // velocity Verlet: half a push, a move, half a push
   bool moves_first = false;        // position Verlet: half a move, a push, half a move
+  bool is_whole = false;           // moved with the rest of its island
 
   // Its joints.
   std::uint32_t first_joint = 0;  // in JointSystem::by_body

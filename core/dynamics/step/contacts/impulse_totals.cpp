@@ -74,23 +74,30 @@ ImpulseTotals::Impulses ImpulseTotals::impulses_of(const Entry& entry, const Con
 
 // A substep begins with the impulses of the one before, so each one's impulses are all that it
 // gives.
-void ImpulseTotals::note(const ContactRun& run) {
-  for (Entry& entry : entries_) {
-    const lanes::ManifoldBlock& block = run.blocks[entry.place.block()];
-    const std::size_t lane = entry.place.lane();
-    entry.last = impulses_of(entry, run);
-    for (std::size_t i = 0; i < entry.last.size(); ++i) {
-      LKS_ASSERT(entry.last[i] >= 0);
-      entry.total.points[i] += entry.last[i];
-    }
-    const std::int64_t word = entry.converged == nullptr
-                                  ? block.friction[lane]
-                                  : contact_phases::friction_word(*entry.converged);
-    Vec3<SolverVelocity> friction;
-    across(block, lane, word, friction);
-    for (int i = 0; i < 3; ++i)
-      entry.total.friction[static_cast<std::size_t>(i)] += friction[i].raw;
+void ImpulseTotals::add(const ContactRun& run, Entry& entry) {
+  const lanes::ManifoldBlock& block = run.blocks[entry.place.block()];
+  const std::size_t lane = entry.place.lane();
+  entry.last = impulses_of(entry, run);
+  for (std::size_t i = 0; i < entry.last.size(); ++i) {
+    LKS_ASSERT(entry.last[i] >= 0);
+    entry.total.points[i] += entry.last[i];
   }
+  const std::int64_t word = entry.converged == nullptr
+                                ? block.friction[lane]
+                                : contact_phases::friction_word(*entry.converged);
+  Vec3<SolverVelocity> friction;
+  across(block, lane, word, friction);
+  for (int i = 0; i < 3; ++i)
+    entry.total.friction[static_cast<std::size_t>(i)] += friction[i].raw;
+}
+
+void ImpulseTotals::note(const ContactRun& run) {
+  for (Entry& entry : entries_)
+    if (entry.converged == nullptr || !entry.converged->is_whole) add(run, entry);
+}
+
+void ImpulseTotals::note(const ContactRun& run, ContactId contact) {
+  if (Entry* entry = find(contact)) add(run, *entry);
 }
 
 void ImpulseTotals::end(const ContactRun& run) {

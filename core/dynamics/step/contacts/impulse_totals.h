@@ -34,8 +34,10 @@ class ImpulseTotals {
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] bool is_full() const { return entries_.size() == capacity_; }
 
-  /// After a substep.
+  /// After a substep: all contacts but those of whole islands.
   void note(const ContactRun& run);
+  /// The same for a contact of a whole island.
+  void note(const ContactRun& run, ContactId contact);
   /// After the last iteration: bounces have pushed since the last substep.
   void end(const ContactRun& run);
   /// Two balls changed their relative velocity by `jump` at once.
@@ -59,6 +61,7 @@ class ImpulseTotals {
     Impulses last{};  // of the substep noted last
   };
 
+  static void add(const ContactRun& run, Entry& entry);
   [[nodiscard]] static Impulses impulses_of(const Entry& entry, const ContactRun& run);
   [[nodiscard]] Entry* find(ContactId contact);
 

@@ -85,6 +85,7 @@ void IteratedGainLimit::note_pushes(std::size_t first, std::size_t end) {
   LKS_ASSERT(end <= parts_.bodies.count());
   if (are_pushed_hard_.load(std::memory_order_relaxed)) return;
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
+    if (parts_.bodies.constants()[i].is_whole) continue;
     const lanes::BodyVelocity free = free_motion(static_cast<std::uint32_t>(i), Impulses::felt);
     if (is_below(difference(parts_.bodies.rows()[i], free), k_soft_push)) continue;
     return are_pushed_hard_.store(true, std::memory_order_relaxed);

@@ -113,23 +113,21 @@ void SolverBodies::fill_numbered(const ContactScene& scene, std::size_t number) 
 // In the first substep: gravity and the impulses of the tick before. Later ones start with the
 // impulses that the substep before ended with. All responses are fixed for a tick, so these
 // impulses and gravity give a body the same velocity as in the substep before.
-void SolverBodies::integrate_velocities(bool is_first, std::size_t first, std::size_t end) {
-  LKS_ASSERT(end <= count());
-  for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
-    BodyVelocity& row = rows_[i];
-    BodyVelocity& before = before_[i];
-    const SolverBody& body = constants_[i];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (is_first) {
-        start_component(body.gain[axis], row.velocity[axis], before.velocity[axis]);
-        start_component(body.spin_gain[axis], row.spin[axis], before.spin[axis]);
-      } else {
-        repeat_component(row.velocity[axis], before.velocity[axis]);
-        repeat_component(row.spin[axis], before.spin[axis]);
-      }
+void SolverBodies::integrate_velocity(bool is_first, std::uint32_t number) {
+  LKS_ASSERT(number > 0 && number < count());
+  BodyVelocity& row = rows_[number];
+  BodyVelocity& before = before_[number];
+  const SolverBody& body = constants_[number];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (is_first) {
+      start_component(body.gain[axis], row.velocity[axis], before.velocity[axis]);
+      start_component(body.spin_gain[axis], row.spin[axis], before.spin[axis]);
+    } else {
+      repeat_component(row.velocity[axis], before.velocity[axis]);
+      repeat_component(row.spin[axis], before.spin[axis]);
     }
-    apply_axis_locks(static_cast<std::uint32_t>(i));
   }
+  apply_axis_locks(number);
 }
 
 // Preparation gives locked axes no response; here the velocity that a push left there is cleared.
@@ -141,20 +139,18 @@ void SolverBodies::apply_axis_locks(std::uint32_t number) {
   }
 }
 
-void SolverBodies::integrate_positions(std::size_t first, std::size_t end) {
-  LKS_ASSERT(end <= count());
-  for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
-    const SolverBody& body = constants_[i];
-    if (body.is_pushed() && is_still(rows_[i])) continue;
-    const BodyVelocity row = body.is_alone ? steadied(rows_[i]) : rows_[i];
-    DeltaPose& travel = travel_[i];
-    const std::array<std::int64_t, 3> spin = {within_limit(row.spin[0]), within_limit(row.spin[1]),
-                                              within_limit(row.spin[2])};
-    const std::array<std::int64_t, 3> surface = surface_velocity(body.inverse_inertia, spin);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      travel.velocity[axis] += within_limit(row.velocity[axis]) >> k_grid_to_row;
-      travel.surface[axis] += surface[axis];
-    }
+void SolverBodies::integrate_position(std::uint32_t number) {
+  LKS_ASSERT(number > 0 && number < count());
+  const SolverBody& body = constants_[number];
+  if (body.is_pushed() && is_still(rows_[number])) return;
+  const BodyVelocity row = body.is_alone ? steadied(rows_[number]) : rows_[number];
+  DeltaPose& travel = travel_[number];
+  const std::array<std::int64_t, 3> spin = {within_limit(row.spin[0]), within_limit(row.spin[1]),
+                                            within_limit(row.spin[2])};
+  const std::array<std::int64_t, 3> surface = surface_velocity(body.inverse_inertia, spin);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    travel.velocity[axis] += within_limit(row.velocity[axis]) >> k_grid_to_row;
+    travel.surface[axis] += surface[axis];
   }
 }
 

@@ -58,10 +58,10 @@ class SolverBodies {
   /// Gathers the data of rows `first` … `end` − 1 from the records.
   void fill(const ContactScene& scene, std::size_t first, std::size_t end);
 
-  /// Adds gravity, forces and the warm start to velocities at the beginning of a substep.
-  void integrate_velocities(bool is_first, std::size_t first, std::size_t end);
-  /// Adds velocities to the travel of bodies.
-  void integrate_positions(std::size_t first, std::size_t end);
+  /// Adds gravity, forces and the warm start to a body's velocity at the beginning of a substep.
+  void integrate_velocity(bool is_first, std::uint32_t number);
+  /// Adds its velocity to its travel.
+  void integrate_position(std::uint32_t number);
 
   /// Clears the velocity along locked axes of moving.
   void apply_axis_locks(std::uint32_t number);

@@ -4,6 +4,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/base/reserved.h"
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/linkage/joint_solver.h"
@@ -41,119 +42,124 @@ std::int64_t row_energy(const EnergyLimit::Bodies& all, std::uint32_t i) {
 }  // namespace
 
 void EnergyLimit::reserve(std::size_t body_capacity) {
-  islands_.reserve(body_capacity + 1);
-  starts_.reserve(body_capacity + 1);
+  islands_.reserve(body_capacity);
+  numbers_.reserve(body_capacity + 1);
+  bodies_.reserve(body_capacity);
 }
 
 void EnergyLimit::begin(const Bodies& all) {
-  watches_ = knows_now_ = false;
+  islands_.clear();
   count_ = 0;
   if (!all.joints.has_own()) return;
-  starts_.resize(all.numbers.count());
-  islands_.assign(all.islands.count(), {});
+  find_islands(all);
+  list_bodies(all);
+}
+
+void EnergyLimit::find_islands(const Bodies& all) {
+  LKS_ASSERT(is_reserved(numbers_, all.islands.count()));
+  numbers_.assign(all.islands.count(), k_unwatched);
   for (std::uint32_t i = 1; i < all.numbers.count(); ++i) {
-    LKS_ASSERT(all.islands.of(i) < islands_.size());
-    const IslandTally& tally = all.islands.tally(all.islands.of(i));
-    if (all.islands.of(i) == 0 || !tally.has_joints || tally.contacts == 0 || tally.is_fed)
-      continue;
-    Island& island = islands_[all.islands.of(i)];
+    const std::uint32_t index = all.islands.of(i);
+    const IslandTally& tally = all.islands.tally(index);
+    if (index == 0 || !tally.has_joints || tally.contacts == 0 || tally.is_fed) continue;
     const BlockFloat inverse = all.bodies[i].inverse_mass;
     LKS_ASSERT(inverse.mantissa >= 0);
     if (inverse.mantissa == 0) continue;
+    if (numbers_[index] == k_unwatched) {
+      numbers_[index] = watched();
+      islands_.emplace_back().island = index;
+    }
+    Island& island = islands_[numbers_[index]];
     const bool is_heavier = ratio(inverse, island.unit) < Unit::from_raw(1 << 29);
     if (island.unit == BlockFloat{} || is_heavier) island.unit = inverse;
-    watches_ = true;
+    ++island.count;
   }
 }
 
-template <class Visit>
-void EnergyLimit::for_watched(const Bodies& all, const Visit& visit) {
+void EnergyLimit::list_bodies(const Bodies& all) {
+  std::uint32_t next = 0;
+  for (Island& island : islands_) {
+    island.first = next;
+    next += island.count;
+    island.count = 0;
+  }
+  LKS_ASSERT(is_reserved(bodies_, next));
+  bodies_.resize(next);
   for (std::uint32_t i = 1; i < all.numbers.count(); ++i) {
-    Island& island = islands_[all.islands.of(i)];
-    if (island.unit != BlockFloat{} && all.bodies[i].is_pushed())
-      visit(i, island, quotient(island.unit, all.bodies[i].inverse_mass));
+    const std::uint32_t number = numbers_[all.islands.of(i)];
+    if (number == k_unwatched || !all.bodies[i].is_pushed()) continue;
+    Island& island = islands_[number];
+    bodies_[island.first + island.count++].number = i;
   }
 }
 
-void EnergyLimit::note(const Bodies& all) {
-  LKS_ASSERT(watches_);
-  for (Island& island : islands_)
-    island.first = knows_now_ ? island.now : 0;
-  for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
-    starts_[i] = velocity_of_row(all.rows[i].velocity);
-    if (knows_now_) return;
-    add_energy(island.first, row_energy(all, i), mass);
-  });
+void EnergyLimit::note(const Bodies& all, std::uint32_t watched) {
+  Island& island = islands_[watched];
+  LKS_ASSERT(island.count > 0);
+  island.start = island.knows_now ? island.now : 0;
+  for (WatchedBody& body : bodies_of(island)) {
+    body.start = velocity_of_row(all.rows[body.number].velocity);
+    if (!island.knows_now)
+      add_energy(island.start, row_energy(all, body.number),
+                 quotient(island.unit, all.bodies[body.number].inverse_mass));
+  }
 }
 
 // As it is now, and its change in the substep besides the work of gravity and forces.
-void EnergyLimit::sum(const Bodies& all) {
-  for (Island& island : islands_) {
-    island.now = 0;
-    island.change = -island.first;
-    island.moving_gain = island.first >> k_moving_gain_shift;
-  }
-  for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
+void EnergyLimit::sum(const Bodies& all, Island& island) {
+  island.now = 0;
+  island.change = -island.start;
+  island.moving_gain = island.start >> k_moving_gain_shift;
+  for (const WatchedBody& body : bodies_of(island)) {
+    const BlockFloat mass = quotient(island.unit, all.bodies[body.number].inverse_mass);
     ProductSum work;  // twice
-    const Vec3<Velocity> end = velocity_of_row(all.rows[i].velocity);
+    const Vec3<Velocity> end = velocity_of_row(all.rows[body.number].velocity);
     for (int axis = 0; axis < 3; ++axis)
-      work.add(all.bodies[i].gain[static_cast<std::size_t>(axis)],
-               starts_[i][axis].raw + end[axis].raw);
-    const std::int64_t own = row_energy(all, i);
+      work.add(all.bodies[body.number].gain[static_cast<std::size_t>(axis)],
+               body.start[axis].raw + end[axis].raw);
+    const std::int64_t own = row_energy(all, body.number);
     const std::int64_t change = raw::saturating_add(own, -work.rounded(32));
     add_energy(island.now, own, mass);
     add_energy(island.change, change, mass);
     add_energy(island.moving_gain, k_moving_gain, mass);
-  });
+  }
 }
 
 // Takes an excess of energy away from all bodies of an island alike.
-void EnergyLimit::take(Island& island, std::int64_t excess) {
-  island.share = root_of_share(raw::saturating_add(island.now, -excess), island.now);
-  LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
-  ++count_;
-}
-
-void EnergyLimit::scale(const Bodies& all) {
-  for_watched(all, [&](std::uint32_t i, const Island& island, BlockFloat) {
-    LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
-    if (island.share == 1 << k_share_bits) return;
-    const auto shrink = [&](std::int64_t& now, std::int64_t& before) {
-      const std::int64_t change =
-          product_rounded(bounded_row(now), island.share, k_share_bits) - bounded_row(now);
-      now = bounded_row(now) + change;
-      before = bounded_row(before) + change;
-    };
+void EnergyLimit::take(const Bodies& all, const Island& island, std::int64_t excess) {
+  const std::int32_t share = root_of_share(raw::saturating_add(island.now, -excess), island.now);
+  LKS_ASSERT(share >= 0 && share <= 1 << k_share_bits);
+  count_.fetch_add(1, std::memory_order_relaxed);
+  if (share == 1 << k_share_bits) return;
+  const auto shrink = [&](std::int64_t& now, std::int64_t& before) {
+    const std::int64_t change =
+        product_rounded(bounded_row(now), share, k_share_bits) - bounded_row(now);
+    now = bounded_row(now) + change;
+    before = bounded_row(before) + change;
+  };
+  for (const WatchedBody& body : bodies_of(island)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      shrink(all.rows[i].velocity[axis], all.before[i].velocity[axis]);
-      shrink(all.rows[i].spin[axis], all.before[i].spin[axis]);
+      shrink(all.rows[body.number].velocity[axis], all.before[body.number].velocity[axis]);
+      shrink(all.rows[body.number].spin[axis], all.before[body.number].spin[axis]);
     }
-  });
+  }
 }
 
-void EnergyLimit::limit_moves(const Bodies& all) {
-  sum(all);
-  for (Island& island : islands_) {
-    island.share = 1 << k_share_bits;
-    if (island.change > island.moving_gain) take(island, island.change);
-  }
-  scale(all);
+void EnergyLimit::limit_moves(const Bodies& all, std::uint32_t watched) {
+  Island& island = islands_[watched];
+  sum(all, island);
+  if (island.change > island.moving_gain) take(all, island, island.change);
 }
 
 // The next substep begins as this one ends.
-void EnergyLimit::limit_gains(const Bodies& all) {
-  LKS_ASSERT(watches_);
-  const std::uint32_t before = count_;
-  sum(all);
-  for (Island& island : islands_) {
-    island.gained = raw::saturating_add(island.gained, island.change);
-    island.share = 1 << k_share_bits;
-    if (island.gained <= (island.now >> k_free_gain_shift) + k_least_gain) continue;
-    take(island, island.gained);
-    island.gained = 0;
-  }
-  knows_now_ = count_ == before;
-  if (!knows_now_) scale(all);
+void EnergyLimit::limit_gains(const Bodies& all, std::uint32_t watched) {
+  Island& island = islands_[watched];
+  sum(all, island);
+  island.gained = raw::saturating_add(island.gained, island.change);
+  island.knows_now = island.gained <= (island.now >> k_free_gain_shift) + k_least_gain;
+  if (island.knows_now) return;
+  take(all, island, island.gained);
+  island.gained = 0;
 }
 
 }  // namespace lockstone

@@ -7,6 +7,7 @@
 // positions do not move with velocities of much more energy than those before them.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,42 +39,62 @@ class EnergyLimit {
 
   /// At the beginning of a tick: finds the islands to watch.
   void begin(const Bodies& all);
-  [[nodiscard]] bool watches() const { return watches_; }
+  /// Islands that are watched. The functions below take one by its number among these, and may run
+  /// side by side for several.
+  [[nodiscard]] std::uint32_t watched() const {
+    return static_cast<std::uint32_t>(islands_.size());
+  }
+  /// The island of the tick.
+  [[nodiscard]] std::uint32_t island(std::uint32_t watched) const {
+    return islands_[watched].island;
+  }
+  /// The number of an island of the tick, or `k_unwatched`.
+  static constexpr std::uint32_t k_unwatched = 0xffffffff;
+  [[nodiscard]] std::uint32_t number_of(std::uint32_t island) const {
+    return islands_.empty() ? k_unwatched : numbers_[island];
+  }
 
   /// At the beginning of a substep.
-  void note(const Bodies& all);
+  void note(const Bodies& all, std::uint32_t watched);
   /// Before positions move: a body that goes too far in a substep may be lifted, or leave its
   /// joints.
-  void limit_moves(const Bodies& all);
+  void limit_moves(const Bodies& all, std::uint32_t watched);
   /// At the end of a substep.
-  void limit_gains(const Bodies& all);
+  void limit_gains(const Bodies& all, std::uint32_t watched);
 
   /// How often energy was taken away in this tick.
-  [[nodiscard]] std::uint32_t count() const { return count_; }
+  [[nodiscard]] std::uint32_t count() const { return count_.load(std::memory_order_relaxed); }
 
  private:
   // Of an island, twice energies by its heaviest body's mass.
   struct Island {
-    BlockFloat unit{};        // its inverse mass; zero: the island is not watched
-    std::int64_t gained = 0;  // in this tick, besides the work of gravity and forces
-    std::int64_t first = 0;   // at the substep's beginning
+    std::uint32_t island = 0;
+    std::uint32_t first = 0, count = 0;  // of its bodies
+    bool knows_now = false;              // since no energy was taken away after it was summed
+    BlockFloat unit{};                   // inverse mass
+    std::int64_t gained = 0;             // in this tick, besides the work of gravity and forces
+    std::int64_t start = 0;              // at the substep's beginning
     std::int64_t now = 0;
     std::int64_t change = 0;       // in the substep, besides that work
     std::int64_t moving_gain = 0;  // the most of it before positions move
-    std::int32_t share = 0;        // of velocities that is left, Q30
+  };
+  struct WatchedBody {
+    std::uint32_t number = 0;
+    Vec3<Velocity> start{};  // velocity at the beginning of the substep
   };
 
-  template <class Visit>
-  void for_watched(const Bodies& all, const Visit& visit);
-  void sum(const Bodies& all);
-  void take(Island& island, std::int64_t excess);
-  void scale(const Bodies& all);
+  void find_islands(const Bodies& all);
+  void list_bodies(const Bodies& all);
+  [[nodiscard]] std::span<WatchedBody> bodies_of(const Island& island) {
+    return std::span(bodies_).subspan(island.first, island.count);
+  }
+  void sum(const Bodies& all, Island& island);
+  void take(const Bodies& all, const Island& island, std::int64_t excess);
 
-  std::vector<Island> islands_;
-  std::vector<Vec3<Velocity>> starts_;  // velocities at the beginning of the substep, if watched
-  bool watches_ = false;
-  bool knows_now_ = false;  // `now` holds, since no energy was taken away after it was summed
-  std::uint32_t count_ = 0;
+  std::vector<Island> islands_;         // that are watched
+  std::vector<std::uint32_t> numbers_;  // by island of the tick
+  std::vector<WatchedBody> bodies_;     // island by island
+  std::atomic<std::uint32_t> count_{0};
 };
 
 }  // namespace lockstone

@@ -27,8 +27,8 @@ constexpr double k_least_drawn = 1e-6;  // an axis in logarithms has no 0
 std::string_view unit_of(bench::Judge judge) {
   constexpr auto k_units = std::to_array<std::string_view>(
       {"m moved", "m gap", "speed off", "rad off", "rad off", "swing lost", "lost", "gained",
-       "missed", "unseen", "m fallen", "m sunk", "m/s", "m up", "slowed", "awake"});
-  static_assert(k_units.size() == static_cast<std::size_t>(bench::Judge::awake) + 1);
+       "missed", "unseen", "m fallen", "m sunk", "m/s", "m up", "slowed", "awake", "m out"});
+  static_assert(k_units.size() == bench::k_judges);
   return k_units[static_cast<std::size_t>(judge)];
 }
 
