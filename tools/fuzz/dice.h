@@ -1,4 +1,7 @@
 // Random numbers of the fuzzer: a stream of their own for every index of a seed.
+//
+// An expression draws once: compilers differ in the order in which they evaluate operands and
+// arguments.
 #pragma once
 
 #include <algorithm>
@@ -76,7 +79,10 @@ inline Quat Dice::quarter_turns() {
 inline Quat Dice::orientation() {
   if (chance(10)) return {};
   if (chance(10)) return quarter_turns();
-  if (chance(10)) return to_quat({0, uniform(-1, 1), 0}, uniform(-1, 1));
+  if (chance(10)) {
+    const double cosine = uniform(-1, 1);
+    return to_quat({0, uniform(-1, 1), 0}, cosine);
+  }
   const double tilt = log_uniform(1e-8, 1e-2);
   if (chance(8)) return to_quat(in_cube(tilt), 1);
   const Real3 axis = in_cube(1);

@@ -56,7 +56,10 @@ Body random_body(HullPool& pool, Dice& dice, Kind kind, const Sizes& sizes, std:
   const Length x = size(), y = size(), z = size();
   if (kind == Kind::sphere) body.shape = Shape::sphere(x);
   if (kind == Kind::capsule) body.shape = Shape::capsule(y, x);
-  if (kind == Kind::box) body.shape = Shape::box(x, dice.chance(4) ? x : y, dice.chance(4) ? y : z);
+  if (kind == Kind::box) {
+    const Length deep = dice.chance(4) ? y : z;
+    body.shape = Shape::box(x, dice.chance(4) ? x : y, deep);
+  }
   if (kind == Kind::cylinder) body.shape = Shape::cylinder(y, x);
   if (kind == Kind::cone) body.shape = Shape::cone(y, x);
   if (kind == Kind::tapered_capsule)
@@ -109,9 +112,10 @@ Vec3<Length> bounded(const Real3& v, double bound = k_farthest) {
 // A normal of one of its faces; of a shape without faces, any direction.
 Real3 some_normal(Dice& dice, const Body& body) {
   if (body.kind == Kind::half_space) return real(body.rotation.y);
-  if (body.is_box())
-    return real(body.rotation.column(static_cast<int>(dice.between(0, 2)))) *
-           (dice.chance(2) ? -1 : 1);
+  if (body.is_box()) {
+    const int way = dice.chance(2) ? -1 : 1;
+    return real(body.rotation.column(static_cast<int>(dice.between(0, 2)))) * way;
+  }
   if (body.has_rims()) {
     const Real3 axis = real(body.rotation.y);
     if (dice.chance(2)) return direction_of(axis) * (dice.chance(2) ? -1 : 1);
@@ -190,12 +194,15 @@ void place(Dice& dice, Pair& pair) {
 
 void aim(Dice& dice, Pair& pair) {
   const double size = std::min(1000.0, pair.a.size() + pair.b.size());
-  const Real3 back = dice.direction() * (size * dice.log_uniform(0.01, 2));
+  const double far = size * dice.log_uniform(0.01, 2);
+  const Real3 back = dice.direction() * far;
   pair.cast_from = bounded(real(pair.offset) * dice.uniform(0, 1.1) - back, 1000);
   pair.way = bounded((real(pair.offset) - real(pair.cast_from)) * dice.uniform(0.5, 2), 900);
   if (dice.chance(4)) pair.way = bounded(dice.direction() * size, 900);
-  const Real3 origin = dice.direction() * std::min(1400.0, pair.a.size() * dice.uniform(0, 4) + 1);
-  const Real3 target = dice.direction() * (std::min(600.0, pair.a.size()) * dice.uniform(0, 1.1));
+  const double from = std::min(1400.0, pair.a.size() * dice.uniform(0, 4) + 1);
+  const Real3 origin = dice.direction() * from;
+  const double to = std::min(600.0, pair.a.size()) * dice.uniform(0, 1.1);
+  const Real3 target = dice.direction() * to;
   pair.ray_origin = bounded(origin, 1400);
   pair.ray_way = bounded((target - origin) * dice.uniform(0.5, 2), 1400);
 }

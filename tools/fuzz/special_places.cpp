@@ -15,7 +15,9 @@ Vec3<Length> bounded(const Real3& v) {
 }
 
 double slight(Dice& dice, double least, double most) {
-  return dice.chance(3) ? 0 : dice.log_uniform(least, most) * (dice.chance(2) ? -1 : 1);
+  if (dice.chance(3)) return 0;
+  const double size = dice.log_uniform(least, most);
+  return dice.chance(2) ? -size : size;
 }
 
 /// B like A, turned about A's axis and over an edge, and leaning by an angle that may be slight.
@@ -67,7 +69,8 @@ void along_line(Dice& dice, Pair& pair, const Real3& n) {
 /// B's outermost point on A's along one direction: of two rims, edge on edge.
 void point_on_point(Dice& dice, Pair& pair) {
   const Real3 n = dice.direction();
-  const Real3 facing = direction_of(n + dice.direction() * dice.uniform(0, 0.5));
+  const double lean = dice.uniform(0, 0.5);
+  const Real3 facing = direction_of(n + dice.direction() * lean);
   pair.offset = bounded(outermost(pair.a, n) - outermost(pair.b, -facing) + n * small_gap(dice));
 }
 
