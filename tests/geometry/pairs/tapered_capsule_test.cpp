@@ -166,6 +166,36 @@ TEST(TaperedCapsules, StandOnOnePointAndLieOnTwo) {
   }
 }
 
+// Nearly a cylinder, along a face: its side falls by micrometres from one end of the face to the
+// other. Contact points are on the side wherever it is deepest.
+TEST(TaperedCapsules, AlongAFaceTouchItWithTheirSide) {
+  constexpr double k_rounding = 1e-4;
+  const Mat3 upright;
+  Dice dice;
+  int beside = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const double size = std::exp(dice.uniform(std::log(0.1), std::log(60)));
+    const double x = size * dice.uniform(0.3, 1), y = size * dice.uniform(0.3, 1),
+                 z = size * dice.uniform(0.3, 1);
+    const double length = size * std::exp(dice.uniform(std::log(0.5), std::log(8)));
+    const double radius = std::max(0.002, size * std::exp(dice.uniform(std::log(1e-3), -1.2)));
+    const double other = radius * (1 - std::exp(dice.uniform(std::log(1e-6), std::log(0.5))));
+    const Shape box = Shape::box(metres(x), metres(y), metres(z));
+    const Shape taper = Shape::tapered_capsule(metres(length), metres(radius), metres(other));
+    const double gap = std::max(-0.5 * other, size * dice.uniform(-0.01, 0.001));
+    const Vec3<Length> offset = metres(x + radius + gap, dice.uniform(-0.6, 0.6) * (length + y),
+                                       dice.uniform(-0.95, 0.95) * z);
+    const Manifold met = collide({box, upright}, {taper, upright}, offset, metres(0.02 * size));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(met.count); ++k) {
+      const RealVec at = real(met.points[k].anchor_b);
+      const auto from_axis = static_cast<double>(std::hypot(at.x, at.z));
+      ASSERT_LE(from_axis, radius + k_rounding) << "pair " << i << ", point " << k;
+      ++beside;
+    }
+  }
+  EXPECT_GT(beside, 4000);
+}
+
 // A turning club that swings past: up to its time of impact the distance is not less than the
 // target by more than rounding. A pair that begins nearer than the target is a hit at once.
 TEST(TaperedCapsules, ReachTheirTimeOfImpactApart) {

@@ -50,8 +50,7 @@ class WaysOut {
     const RawVec offset = pair_.offset;
     for (int round = 0; round < k_rounds; ++round) {
       const Fine before = depth_;
-      const Fine clearance = Fine{1} << (query_.lattice().shift + 20);
-      if (!query_.find(offset + along(normal_, depth_ + clearance))) break;
+      if (!query_.find(offset + way_apart())) break;
       take(query_.gap().normal);
       if (depth_ == before) break;
     }
@@ -70,6 +69,7 @@ class WaysOut {
     const bool keep_a =
         is_tapered(pair_.a) ? !is_side_of(pair_.a, normal_) : is_side_of(pair_.b, -normal_);
     (keep_a ? gap.on_b : gap.on_a) = keep_a ? gap.on_a - apart : gap.on_b + apart;
+    if (!is_on_side(keep_a, gap)) meet_side(keep_a, gap);
     return {gap, pair_.a.rims.count == 0 && pair_.b.rims.count == 0};
   }
 
@@ -78,6 +78,33 @@ class WaysOut {
   [[nodiscard]] bool do_sides_cross() const {
     return is_axis(pair_.a) && is_axis(pair_.b) && is_side_of(pair_.a, normal_) &&
            is_side_of(pair_.b, -normal_);
+  }
+
+  /// By which the shapes are drawn apart.
+  [[nodiscard]] RawVec way_apart() const {
+    return along(normal_, depth_ + (Fine{1} << (query_.lattice().shift + 20)));
+  }
+
+  /// Whether the point that moved is on the taper, if that is where it moved.
+  [[nodiscard]] bool is_on_side(bool keeps_a, const CoreGap& gap) const {
+    constexpr Fine k_beside = Fine{1} << (k_fine_bits - 14);  // 61 µm
+    const ConvexCore& moved = keeps_a ? pair_.b : pair_.a;
+    if (!is_tapered(moved)) return true;
+    const RawVec point = keeps_a ? gap.on_b - pair_.offset : gap.on_a;
+    return magnitude_of(taper_point_gap(moved, point).gap.distance) <= k_beside;
+  }
+
+  /// Where the other's feature is an edge or a face, the corner of it that was found need not be at
+  /// the taper's line. The points are those that are nearest once the two are drawn apart.
+  void meet_side(bool is_b, CoreGap& gap) const {
+    const RawVec apart = along(normal_, gap.distance);
+    const RawVec way = way_apart();
+    if (query_.find(pair_.offset + way)) {
+      const CoreGap& drawn = query_.gap();
+      gap.on_a = is_b ? drawn.on_b - way + apart : drawn.on_a;
+      gap.on_b = gap.on_a - apart;
+    }
+    query_.return_to(pair_.offset);
   }
 
   static bool is_axis(const ConvexCore& core) {

@@ -77,7 +77,8 @@ class TaperSearch {
 
   Nearest least_between(Bracket low, Bracket high) {
     constexpr AxisPlace k_narrow = AxisPlace{1} << 12;
-    constexpr int k_most_steps = 80;
+    constexpr int k_most_steps = 80 + 48;  // of which the last halve alone
+    constexpr int k_first_halving = 80;
     const Fine rounding =
         (magnitude_of(axis_.x) + magnitude_of(axis_.y) + magnitude_of(axis_.z)) >> Unit::frac_bits;
     int side = 0;  // of the last step
@@ -85,9 +86,10 @@ class TaperSearch {
     for (int step = 0; step < k_most_steps; ++step) {
       const AxisPlace width = high.nearest.place - low.nearest.place, least = width / 1024;
       if (width <= k_narrow) return at_leap(low.nearest, high.nearest);
-      const AxisPlace by = step % 4 == 3 ? width / 2
-                                         : round_divide(multiply_wide(width, low.weight),
-                                                        raw::add(low.weight, high.weight));
+      const bool halves = step % 4 == 3 || step >= k_first_halving;
+      const AxisPlace by = halves ? width / 2
+                                  : round_divide(multiply_wide(width, low.weight),
+                                                 raw::add(low.weight, high.weight));
       middle = nearest_at(low.nearest.place + std::clamp(by, least, width - least));
       if (!middle.apart || magnitude_of(middle.rise) <= rounding) return middle;
       const int next = middle.rise > 0 ? 1 : -1;
