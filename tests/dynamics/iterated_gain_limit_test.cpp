@@ -2,6 +2,7 @@
 
 #include "core/dynamics/step/contacts/iterated_gain_limit.h"
 
+#include <cstdlib>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -82,6 +83,15 @@ TEST(IteratedGainLimit, TakesImpulsesBackThatGiveAnIslandEnergy) {
   scene.limit();
   EXPECT_EQ(scene.speed(1), 0);
   EXPECT_EQ(scene.impulse(0), impulse_word(800, 0));  // the largest of the tick stays
+}
+
+// Several contacts of 1,024 m/s each.
+TEST(IteratedGainLimit, TakesImpulsesBackThatExceedTheRangeOfVelocities) {
+  GainScene scene(k_static, 1);
+  scene.begin();
+  scene.move(1, -1000, 8000);
+  scene.limit();
+  EXPECT_LE(std::abs(scene.speed(1)), 1000 * k_metre);
 }
 
 TEST(IteratedGainLimit, LeavesOtherIslandsAlone) {

@@ -1,6 +1,8 @@
 // Bodies as kernels read them.
 #pragma once
 
+#include <algorithm>
+
 #include "core/dynamics/body/solver_body.h"
 #include "core/kernels/ball/ball_block.h"
 #include "core/math/wide/scalar_lanes.h"
@@ -44,12 +46,20 @@ inline constexpr std::int64_t k_soft_push = std::int64_t{1} << (lanes::k_velocit
          is_below(row.spin[1], bound) && is_below(row.spin[2], bound);
 }
 
+/// 2048 m/s.
+inline constexpr std::int64_t k_greatest_velocity = std::int64_t{1}
+                                                    << (lanes::k_velocity_bits + 11);
+
+/// Of velocities within ±2048 m/s, and as if within: several contacts may push a body by more.
 [[nodiscard]] inline lanes::BodyVelocity difference(const lanes::BodyVelocity& a,
                                                     const lanes::BodyVelocity& b) {
+  const auto bounded = [](std::int64_t x) {
+    return std::clamp(x, -k_greatest_velocity, k_greatest_velocity);
+  };
   lanes::BodyVelocity result = a;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.velocity[axis] -= b.velocity[axis];
-    result.spin[axis] -= b.spin[axis];
+    result.velocity[axis] = bounded(a.velocity[axis]) - bounded(b.velocity[axis]);
+    result.spin[axis] = bounded(a.spin[axis]) - bounded(b.spin[axis]);
   }
   return result;
 }
