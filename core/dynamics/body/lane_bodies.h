@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/solver_body.h"
 #include "core/kernels/ball/ball_block.h"
 #include "core/math/wide/scalar_lanes.h"
@@ -61,6 +63,7 @@ inline constexpr std::int64_t k_greatest_velocity = std::int64_t{1}
     result.velocity[axis] = bounded(a.velocity[axis]) - bounded(b.velocity[axis]);
     result.spin[axis] = bounded(a.spin[axis]) - bounded(b.spin[axis]);
   }
+  LKS_ASSERT(is_below(result, 2 * k_greatest_velocity + 1));
   return result;
 }
 
