@@ -23,28 +23,31 @@ struct Parts {
   WholeClusters clusters;
 };
 
+// Two links, on a body that is not pushed; plans it.
+struct Chain {
+  explicit Chain(JointScene& scene, MotionType anchor)
+      : top(scene.body(0, 0, 0, anchor)), link(scene.body(1, 0, 0)), last(scene.body(2, 0, 0)) {
+    scene.ball(top, link);
+    scene.ball(link, last);
+    scene.plan();
+  }
+  std::uint32_t top, link, last;
+};
+
 TEST(WholeClusters, AreApartWithBodiesThatStandStill) {
   JointScene scene;
-  const std::uint32_t ground = scene.body(0, 0, 0, MotionType::static_body);
-  const std::uint32_t link = scene.body(1, 0, 0), last = scene.body(2, 0, 0);
-  scene.ball(ground, link);
-  scene.ball(link, last);
-  scene.plan();
+  const Chain chain(scene, MotionType::static_body);
   const Parts parts(scene);
   ASSERT_EQ(scene.system.clusters.size(), 1U);
   EXPECT_TRUE(parts.clusters.is_apart(0));
   EXPECT_EQ(parts.clusters.joint_count(0), 2U);
   const std::uint32_t body = parts.clusters.body_of(0);
-  EXPECT_TRUE(body == link + 1 || body == last + 1);
+  EXPECT_TRUE(body == chain.link + 1 || body == chain.last + 1);
 }
 
 TEST(WholeClusters, AreNotApartWithABodyThatMovesByItself) {
   JointScene scene;
-  const std::uint32_t paddle = scene.body(0, 0, 0, MotionType::kinematic);
-  const std::uint32_t link = scene.body(1, 0, 0), last = scene.body(2, 0, 0);
-  scene.ball(paddle, link);
-  scene.ball(link, last);
-  scene.plan();
+  const Chain chain(scene, MotionType::kinematic);
   const Parts parts(scene);
   ASSERT_EQ(scene.system.clusters.size(), 1U);
   EXPECT_FALSE(parts.clusters.is_apart(0));

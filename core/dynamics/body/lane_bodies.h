@@ -48,20 +48,21 @@ inline constexpr std::int64_t k_soft_push = std::int64_t{1} << (lanes::k_velocit
          is_below(row.spin[1], bound) && is_below(row.spin[2], bound);
 }
 
-/// 2048 m/s.
+/// Velocities of a substep stay within 2048 m/s.
 inline constexpr std::int64_t k_greatest_velocity = std::int64_t{1}
                                                     << (lanes::k_velocity_bits + 11);
 
-/// Of velocities within ±2048 m/s, and as if within: several contacts may push a body by more.
+[[nodiscard]] constexpr std::int64_t bounded_row(std::int64_t x) {
+  return std::clamp(x, -k_greatest_velocity, k_greatest_velocity);
+}
+
+/// As if both were within these bounds: several contacts may push a body by more.
 [[nodiscard]] inline lanes::BodyVelocity difference(const lanes::BodyVelocity& a,
                                                     const lanes::BodyVelocity& b) {
-  const auto bounded = [](std::int64_t x) {
-    return std::clamp(x, -k_greatest_velocity, k_greatest_velocity);
-  };
   lanes::BodyVelocity result = a;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.velocity[axis] = bounded(a.velocity[axis]) - bounded(b.velocity[axis]);
-    result.spin[axis] = bounded(a.spin[axis]) - bounded(b.spin[axis]);
+    result.velocity[axis] = bounded_row(a.velocity[axis]) - bounded_row(b.velocity[axis]);
+    result.spin[axis] = bounded_row(a.spin[axis]) - bounded_row(b.spin[axis]);
   }
   LKS_ASSERT(is_below(result, 2 * k_greatest_velocity + 1));
   return result;

@@ -315,8 +315,7 @@ void ContactSolver::note_moved(std::uint32_t body, const BodyRecord& record) {
 }
 
 EnergyLimit::Bodies ContactSolver::energy_bodies() {
-  return {bodies_,          bodies_.constants(), bodies_.rows(),
-          bodies_.before(), islands_.all(),      joints_.solver()};
+  return {bodies_, islands_.all(), joints_.solver()};
 }
 
 SolverCounts ContactSolver::counts() const {

@@ -1,5 +1,7 @@
 #include "core/dynamics/step/whole_islands.h"
 
+#include <utility>
+
 #include <lockstone/assert.h>
 
 #include "core/base/reserved.h"
@@ -69,21 +71,20 @@ void WholeIslands::count_clusters() {
 
 // Keeps the candidates whose joints are all in clusters of their own.
 void WholeIslands::choose() {
-  std::uint32_t kept = 0, first_cluster = 0;
-  for (const Island island : islands_) {
+  std::erase_if(islands_, [this](const Island& island) {
     IslandTally& tally = parts_.islands.tally(island.island);
     tally.whole = 0;
     LKS_ASSERT(island.joints <= tally.joints);
-    if (!island.is_apart || island.joints != tally.joints) continue;
-    islands_[kept] = island;
-    islands_[kept].first_cluster = first_cluster;
-    islands_[kept].clusters = 0;
-    first_cluster += island.clusters;
-    tally.whole = ++kept;
+    return !island.is_apart || island.joints != tally.joints;
+  });
+  std::uint32_t number = 0, clusters = 0;
+  for (Island& island : islands_) {
+    parts_.islands.tally(island.island).whole = ++number;
+    island.first_cluster = clusters;
+    clusters += std::exchange(island.clusters, 0);  // `list_clusters` counts them again
   }
-  islands_.resize(kept);
-  LKS_ASSERT(is_reserved(clusters_, first_cluster));
-  clusters_.resize(first_cluster);
+  LKS_ASSERT(is_reserved(clusters_, clusters));
+  clusters_.resize(clusters);
 }
 
 void WholeIslands::list_clusters() {
@@ -198,8 +199,7 @@ void WholeIslands::relax(const Island& island) {
 }
 
 EnergyLimit::Bodies WholeIslands::energy_bodies() {
-  return {parts_.bodies,          parts_.bodies.constants(), parts_.bodies.rows(),
-          parts_.bodies.before(), parts_.islands.all(),      parts_.joints.solver()};
+  return {parts_.bodies, parts_.islands.all(), parts_.joints.solver()};
 }
 
 }  // namespace lockstone

@@ -144,15 +144,11 @@ void add_beside_options(CLI::App& command, BesideRequest& request) {
 
 namespace {
 
-bool knows_all(const BesideRequest& request) {
-  for (const std::string& name : request.peers) {
-    if (std::ranges::count(bench::general_peers(), name, &bench::GeneralMaker::name) > 0) continue;
-    complain(fmt::format("no engine is named {}", name));
-    return false;
-  }
-  for (const std::string& name : request.kinds) {
-    if (std::ranges::count(bench::island_kinds(), name, &bench::IslandKind::name) > 0) continue;
-    complain(fmt::format("no kind of islands is named {}", name));
+// Whether all names are among those of `known`; says which is not.
+bool knows_all(const std::vector<std::string>& names, const auto& known, std::string_view what) {
+  for (const std::string& name : names) {
+    if (std::ranges::any_of(known, [&](const auto& each) { return each.name == name; })) continue;
+    complain(fmt::format("no {} is named {}", what, name));
     return false;
   }
   return true;
@@ -161,7 +157,9 @@ bool knows_all(const BesideRequest& request) {
 }  // namespace
 
 int bench_beside(const BesideRequest& request, std::span<const bench::SpeedScene* const> scenes) {
-  if (!knows_all(request)) return k_usage;
+  if (!knows_all(request.peers, bench::general_peers(), "engine") ||
+      !knows_all(request.kinds, bench::island_kinds(), "kind of islands"))
+    return k_usage;
   if (!may_write({request.page, request.force}) || !may_write({request.chart, request.force}))
     return k_unavailable;
   const bench::BesideOptions options = options_of(request);

@@ -23,20 +23,15 @@ constexpr std::int64_t k_least_gain = (std::int64_t{1} << 32) / 6400;
 constexpr int k_moving_gain_shift = 4;
 constexpr std::int64_t k_moving_gain = std::int64_t{1} << 30;
 
-// Velocities of a substep stay within 2048 m/s.
-std::int64_t bounded_row(std::int64_t x) {
-  constexpr std::int64_t k_bound = std::int64_t{1} << 61;
-  return std::clamp(x, -k_bound, k_bound);
-}
-
 // Twice the kinetic energy for each mass.
 std::int64_t row_energy(const EnergyLimit::Bodies& all, std::uint32_t i) {
-  const Vec3<Velocity> velocity = velocity_of_row(all.rows[i].velocity),
-                       spin = velocity_of_row(all.rows[i].spin);
-  const Vec3<Velocity> surface = surface_velocity(all.bodies[i].inverse_inertia, spin);
-  if (!all.bodies[i].is_heavier) return energy_product(velocity, velocity, spin, surface);
+  const Vec3<Velocity> velocity = velocity_of_row(all.bodies.rows()[i].velocity),
+                       spin = velocity_of_row(all.bodies.rows()[i].spin);
+  const Vec3<Velocity> surface = surface_velocity(all.bodies.constants()[i].inverse_inertia, spin);
+  if (!all.bodies.constants()[i].is_heavier)
+    return energy_product(velocity, velocity, spin, surface);
   return energy_product(velocity, velocity,
-                        all.joints.own_spin(all.numbers.side(i).body(), spin, surface), surface);
+                        all.joints.own_spin(all.bodies.side(i).body(), spin, surface), surface);
 }
 
 }  // namespace
@@ -58,11 +53,11 @@ void EnergyLimit::begin(const Bodies& all) {
 void EnergyLimit::find_islands(const Bodies& all) {
   LKS_ASSERT(is_reserved(numbers_, all.islands.count()));
   numbers_.assign(all.islands.count(), k_unwatched);
-  for (std::uint32_t i = 1; i < all.numbers.count(); ++i) {
+  for (std::uint32_t i = 1; i < all.bodies.count(); ++i) {
     const std::uint32_t index = all.islands.of(i);
     const IslandTally& tally = all.islands.tally(index);
     if (index == 0 || !tally.has_joints || tally.contacts == 0 || tally.is_fed) continue;
-    const BlockFloat inverse = all.bodies[i].inverse_mass;
+    const BlockFloat inverse = all.bodies.constants()[i].inverse_mass;
     LKS_ASSERT(inverse.mantissa >= 0);
     if (inverse.mantissa == 0) continue;
     if (numbers_[index] == k_unwatched) {
@@ -85,9 +80,9 @@ void EnergyLimit::list_bodies(const Bodies& all) {
   }
   LKS_ASSERT(is_reserved(bodies_, next));
   bodies_.resize(next);
-  for (std::uint32_t i = 1; i < all.numbers.count(); ++i) {
+  for (std::uint32_t i = 1; i < all.bodies.count(); ++i) {
     const std::uint32_t number = numbers_[all.islands.of(i)];
-    if (number == k_unwatched || !all.bodies[i].is_pushed()) continue;
+    if (number == k_unwatched || !all.bodies.constants()[i].is_pushed()) continue;
     Island& island = islands_[number];
     bodies_[island.first + island.count++].number = i;
   }
@@ -98,10 +93,10 @@ void EnergyLimit::note(const Bodies& all, std::uint32_t watched) {
   LKS_ASSERT(island.count > 0);
   island.start = island.knows_now ? island.now : 0;
   for (WatchedBody& body : bodies_of(island)) {
-    body.start = velocity_of_row(all.rows[body.number].velocity);
+    body.start = velocity_of_row(all.bodies.rows()[body.number].velocity);
     if (!island.knows_now)
       add_energy(island.start, row_energy(all, body.number),
-                 quotient(island.unit, all.bodies[body.number].inverse_mass));
+                 quotient(island.unit, all.bodies.constants()[body.number].inverse_mass));
   }
 }
 
@@ -111,11 +106,11 @@ void EnergyLimit::sum(const Bodies& all, Island& island) {
   island.change = -island.start;
   island.moving_gain = island.start >> k_moving_gain_shift;
   for (const WatchedBody& body : bodies_of(island)) {
-    const BlockFloat mass = quotient(island.unit, all.bodies[body.number].inverse_mass);
+    const BlockFloat mass = quotient(island.unit, all.bodies.constants()[body.number].inverse_mass);
     ProductSum work;  // twice
-    const Vec3<Velocity> end = velocity_of_row(all.rows[body.number].velocity);
+    const Vec3<Velocity> end = velocity_of_row(all.bodies.rows()[body.number].velocity);
     for (int axis = 0; axis < 3; ++axis)
-      work.add(all.bodies[body.number].gain[static_cast<std::size_t>(axis)],
+      work.add(all.bodies.constants()[body.number].gain[static_cast<std::size_t>(axis)],
                body.start[axis].raw + end[axis].raw);
     const std::int64_t own = row_energy(all, body.number);
     const std::int64_t change = raw::saturating_add(own, -work.rounded(32));
@@ -139,8 +134,10 @@ void EnergyLimit::take(const Bodies& all, const Island& island, std::int64_t exc
   };
   for (const WatchedBody& body : bodies_of(island)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      shrink(all.rows[body.number].velocity[axis], all.before[body.number].velocity[axis]);
-      shrink(all.rows[body.number].spin[axis], all.before[body.number].spin[axis]);
+      shrink(all.bodies.rows()[body.number].velocity[axis],
+             all.bodies.before()[body.number].velocity[axis]);
+      shrink(all.bodies.rows()[body.number].spin[axis],
+             all.bodies.before()[body.number].spin[axis]);
     }
   }
 }

@@ -24,12 +24,10 @@ class JointSolver;
 
 class EnergyLimit {
  public:
-  /// The solver's bodies by their numbers, from 1. `before`: velocities at the substep's beginning,
-  /// which change along with those now, so that differences of the two stay.
+  /// The solver's bodies, whose velocities at the substep's beginning change along with those now,
+  /// so that differences of the two stay.
   struct Bodies {
-    const SolverBodies& numbers;
-    std::span<const SolverBody> bodies;
-    std::span<lanes::BodyVelocity> rows, before;
+    SolverBodies& bodies;
     const TickIslands& islands;
     const JointSolver& joints;
   };

@@ -77,8 +77,7 @@ class TaperSearch {
 
   Nearest least_between(Bracket low, Bracket high) {
     constexpr AxisPlace k_narrow = AxisPlace{1} << 12;
-    constexpr int k_most_steps = 80 + 48;  // of which the last halve alone
-    constexpr int k_first_halving = 80;
+    constexpr int k_first_halving = 80, k_most_steps = k_first_halving + 48;
     const Fine rounding =
         (magnitude_of(axis_.x) + magnitude_of(axis_.y) + magnitude_of(axis_.z)) >> Unit::frac_bits;
     int side = 0;  // of the last step
