@@ -66,6 +66,12 @@ template <class To, class D, class Rep, int F>
   return To::from_raw(raw::saturate<typename To::Representation>(scaled));
 }
 
+/// a < b.
+[[nodiscard]] constexpr bool is_less(BlockFloat a, BlockFloat b) {
+  if (a.mantissa == 0 || b.mantissa == 0) return a.mantissa < b.mantissa;
+  return a.exponent != b.exponent ? a.exponent < b.exponent : a.mantissa < b.mantissa;
+}
+
 /// a / (a + b), correctly rounded. Equal inputs give exactly ½; a = 0 gives 0 (also when both are
 /// zero); b = 0 gives exactly 1.
 [[nodiscard]] constexpr Unit ratio(BlockFloat a, BlockFloat b) {

@@ -97,6 +97,15 @@ TEST(BlockFloat, RatioIsCorrectlyRounded) {
   EXPECT_LE(worst, 0.5);
 }
 
+TEST(BlockFloat, IsLessAsTheValuesAre) {
+  Raws raws;
+  for (int i = 0; i < test::share_of(10000); ++i) {
+    const BlockFloat a = i % 5 == 0 ? BlockFloat{} : any_block(raws, 20);
+    const BlockFloat b = i % 7 == 0 ? BlockFloat{} : i % 11 == 0 ? a : any_block(raws, 20);
+    ASSERT_EQ(is_less(a, b), value_of(a) < value_of(b));
+  }
+}
+
 TEST(BlockFloat, RatioOfEqualsAndZeros) {
   const BlockFloat a{(1 << 30) + 12345, -77};
   EXPECT_EQ(ratio(a, a), Unit::from_ratio(1, 2));

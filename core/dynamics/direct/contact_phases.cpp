@@ -64,9 +64,6 @@ void take_over(const ContactRun& run, ProximalContact& contact) {
 // The island's 1/m₀.
 BlockFloat find_unit(const ContactRun& run, const IslandView& island) {
   BlockFloat unit{};
-  const auto is_less = [](BlockFloat x, BlockFloat y) {
-    return x.exponent != y.exponent ? x.exponent < y.exponent : x.mantissa < y.mantissa;
-  };
   for (const std::uint32_t body : island.bodies) {
     const BlockFloat inverse = run.bodies[body].inverse_mass;
     LKS_ASSERT(inverse.mantissa > 0);

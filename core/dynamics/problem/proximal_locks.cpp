@@ -25,13 +25,6 @@ constexpr int k_less_give_bits = 6;
 constexpr int k_first_bits = 27, k_fewer_bits = 4, k_least_bits = 7;
 constexpr int k_finest_bits = 44;
 
-// Of a group: sums of the factor have room for the rows of this many.
-constexpr std::uint32_t k_most_joints = 512;
-
-bool is_heavier(BlockFloat x, BlockFloat y) {
-  return x.exponent != y.exponent ? x.exponent < y.exponent : x.mantissa < y.mantissa;
-}
-
 }  // namespace
 
 ProximalLocks::ProximalLocks(std::size_t body_capacity, std::size_t joint_capacity)
@@ -67,13 +60,13 @@ void ProximalLocks::add_joint(const End& a, const End& b) {
   if (inverse_a.mantissa != 0) joint.part_a = part_of(ratio(inverse_a, b.inverse_mass).raw);
   if (inverse_b.mantissa != 0) joint.part_b = part_of(ratio(inverse_b, a.inverse_mass).raw);
   if (a.body != End::k_unpushed && b.body != End::k_unpushed) pairs_.emplace_back(a.body, b.body);
-  if (group.unit.mantissa == 0 || is_heavier(joint.inverse_mass, group.unit))
+  if (group.unit.mantissa == 0 || is_less(joint.inverse_mass, group.unit))
     group.unit = joint.inverse_mass;
 }
 
 std::uint32_t ProximalLocks::end_group(std::uint32_t bodies) {
   Group& group = groups_.back();
-  if (group.unit.mantissa != 0 && group.joints <= k_most_joints &&
+  if (group.unit.mantissa != 0 && may_fit(bodies, group.joints) &&
       factor_.plan(bodies, pairs_, group.plan)) {
     for (Joint& joint : joints_of(group))
       joint.mass = mass_scale(group.unit, joint.inverse_mass);

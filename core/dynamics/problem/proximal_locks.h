@@ -36,6 +36,11 @@ class ProximalLocks {
     BlockFloat inverse_mass{};
   };
 
+  /// Whether a group of this size may have a factor. `end_group` decides.
+  [[nodiscard]] static bool may_fit(std::uint32_t bodies, std::uint32_t joints) {
+    return bodies <= BodyFactor::k_most_bodies && joints <= k_most_joints;
+  }
+
   /// Begins a group, whose joints are then added in their order.
   void begin_group();
   void add_joint(const End& a, const End& b);
@@ -73,6 +78,9 @@ class ProximalLocks {
   }
 
  private:
+  // Of a group: sums of the factor have room for the rows of this many.
+  static constexpr std::uint32_t k_most_joints = 512;
+
   template <class T>
   using ByRow = std::array<T, k_max_joint_rows>;
 

@@ -40,19 +40,24 @@ void add_pull(JointSystem& system, const LinkedJoint& joint, bool moves_first) {
   add(joint.b, joint.share_b, joint.lever_b);
 }
 
-// Adds the impulses that the last tick ended with.
-void add_last_pull(JointSystem& system, const AddedJoint& joint) {
-  LinkedBody &a = system.bodies[joint.a], &b = system.bodies[joint.b];
-  const JointRecord& record = *joint.record;
-  const std::int32_t share_b =
-      share_of_b(a.record->inverse_mass_value(), b.record->inverse_mass_value());
-  LKS_ASSERT(share_b >= 0 && share_b <= k_one);
+// The impulses that the last tick ended with, Q30.
+std::int64_t last_pull(const JointRecord& record) {
   const auto part = [&](std::size_t i) {
     return std::int64_t{record.axes[i].impulse.raw} * (1 << 10);
   };
-  const auto pull = static_cast<std::int64_t>(norm(part(0), part(1), part(2)));  // Q30
-  if (a.pushed) add_pull(a, product_rounded(pull, k_one - share_b, 30), size_of(record.anchor_a));
-  if (b.pushed) add_pull(b, product_rounded(pull, share_b, 30), size_of(record.anchor_b));
+  return static_cast<std::int64_t>(norm(part(0), part(1), part(2)));
+}
+
+void add_last_pull(JointSystem& system, const AddedJoint& joint) {
+  LinkedBody &a = system.bodies[joint.a], &b = system.bodies[joint.b];
+  const std::int32_t share_b =
+      share_of_b(a.record->inverse_mass_value(), b.record->inverse_mass_value());
+  LKS_ASSERT(share_b >= 0 && share_b <= k_one);
+  const auto add = [&](LinkedBody& body, std::int64_t share, const Vec3<Length>& anchor) {
+    if (body.pushed) add_pull(body, product_rounded(joint.last_pull, share, 30), size_of(anchor));
+  };
+  add(a, k_one - share_b, joint.record->anchor_a);
+  add(b, share_b, joint.record->anchor_b);
 }
 
 // The least inertia with which the step resolves the swing. Some of it grows with the number of
@@ -89,8 +94,10 @@ void forget_pulls(JointSystem& system) {
 
 void find_pulled_links(JointSystem& system) {
   forget_pulls(system);
-  for (const AddedJoint& joint : system.added)
+  for (AddedJoint& joint : system.added) {
+    joint.last_pull = last_pull(*joint.record);
     add_last_pull(system, joint);
+  }
   for (std::uint32_t i = 0; i < system.bodies.size(); ++i) {
     LinkedBody& body = system.bodies[i];
     body.lever_inertia = lever_inertia(system, i);

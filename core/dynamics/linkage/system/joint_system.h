@@ -28,6 +28,7 @@ struct AddedJoint {
   std::uint32_t a = 0, b = 0;  // in JointSystem::bodies
   std::uint32_t place = 0;     // within its group, in the order of elimination
   std::uint32_t joint = 0;     // in JointSystem::joints; k_in_balls if the coloured balls have it
+  std::int64_t last_pull = 0;  // how hard it pulled as the last tick ended, Q30
 };
 
 struct JointGroup {

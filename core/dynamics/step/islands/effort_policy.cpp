@@ -28,7 +28,8 @@ constexpr int k_rigid_shift = 6;
 // The lesser of two inverse masses over the greater, Q30; 1 where a body has no mass.
 std::int32_t lesser_share(BlockFloat a, BlockFloat b) {
   if (a.mantissa == 0 || b.mantissa == 0) return 1 << 30;
-  return std::min(ratio(a, b), ratio(b, a)).raw;
+  if (a == b) return 1 << 29;
+  return (is_less(a, b) ? ratio(a, b) : ratio(b, a)).raw;
 }
 
 // Below this share, 200,000 : 1, impulses would need more bits than there are beside speeds.
