@@ -1,10 +1,14 @@
 #include "core/collision/continuous/first_impact.h"
 
+#include <algorithm>
+#include <optional>
+
 #include <lockstone/assert.h>
 
 #include "core/collision/continuous/piece_sweep.h"
 #include "core/collision/continuous/shrunk_core.h"
 #include "core/collision/narrow_phase/pieces.h"
+#include "core/geometry/contact/feature/contact_feature.h"
 #include "core/math/roots.h"
 
 namespace lockstone {
@@ -76,6 +80,11 @@ OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
   return box;
 }
 
+// Rounded up.
+std::int64_t length_of(const Vec3<Length>& v) {
+  return static_cast<std::int64_t>(norm(v.x.raw, v.y.raw, v.z.raw)) + 1;
+}
+
 // Depths in eighths of the inner radius. At the last two it is decided whether this is an impact at
 // all; then the moment is that of the least depth to which A has not sunk from the beginning.
 constexpr int k_half_depth = 4;
@@ -106,7 +115,7 @@ class PiecesOfB final : public PieceVisitor {
     const bool unbounded = piece.shape.kind == ShapeKind::half_space;
     if (unbounded && !may_meet(piece, a_.origin)) return;
     const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
-    if (is_behind(middle_of(a_), b)) return;
+    if (is_behind(middle_of(a_), b) || (depth_ == ImpactDepth::half && stays_in_front(b))) return;
     const PieceSweep sweep_b(b, motion_b_);
     const SweptShape swept_b{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
     const Hit hit = depth_ == ImpactDepth::half ? meet(swept_b) : meet_soon(swept_b);
@@ -124,7 +133,58 @@ class PiecesOfB final : public PieceVisitor {
     Vec3<Unit> crossing{};
   };
 
-  [[nodiscard]] Hit meet(const SweptShape& b) const {
+  // A, sunk in by half, as it is tried against each piece of B.
+  [[nodiscard]] const ShrunkCore& half_core() {
+    if (!half_core_) half_core_.emplace(a_, inner_radius_ / 8 * k_half_depth);
+    return *half_core_;
+  }
+
+  // At least how far any point of the half core is from the centre that A turns about.
+  [[nodiscard]] Length find_reach() {
+    const ShrunkCore& core = half_core();
+    std::int64_t farthest = 0;
+    for (const Vec3<Length>& vertex : core.polytope.vertices)
+      farthest = std::max(farthest, length_of(vertex));
+    const Length radius =
+        core.is_polytope ? core.polytope.radius : bounding_radius(core.shape, nullptr);
+    const std::int64_t reach = length_of(sweep_a_.origin) + farthest + radius.raw;
+    LKS_ASSERT(reach > 0);
+    return Length::from_raw(raw::saturate<std::int32_t>(reach));
+  }
+
+  // Whether the half core stays in front of a triangle that stands still, so that it never comes as
+  // near as an impact: its centre goes along a line, and its points turn by no more than the angle
+  // times their distance.
+  [[nodiscard]] bool stays_in_front(const Piece& b) {
+    const bool stands =
+        motion_b_.translation == Vec3<Position>{} && motion_b_.rotation == RotationVector{};
+    if (!b.triangle.is_triangle || !stands) return false;
+    if (reach_ == Length{}) reach_ = find_reach();
+    LKS_ASSERT(reach_ > Length{});
+    constexpr Length k_widest = Length::from_integer(256);  // sums below fit
+    if (reach_ > k_widest) return false;
+    const geometry::PolytopeFace& front = b.polytope->faces.front();
+    const auto height = [&](const Vec3<Position>& point) {
+      const Vec3<Position> local = rotate_inverse(b.rotation, point - b.origin);
+      return dot(front.normal, saturated<Length>(local)).raw - front.offset;
+    };
+    const Sweep& way = sweep_a_.sweep;
+    const geometry::Fine start = height(way.start.position);
+    const geometry::Fine end = height(way.start.position + way.translation);
+    const geometry::Fine near = geometry::fine((limits_.target + limits_.tolerance) * 2);
+    if (std::min(start, end) > geometry::fine(reach_) + near) return true;
+    std::int64_t angle = 0;  // rad, Q32
+    for (int i = 0; i < 3; ++i)
+      angle += abs(way.rotation[i]).raw;
+    if (angle >= std::int64_t{1} << 32) return false;
+    const geometry::Fine turned = raw::multiply_shift(angle, reach_.raw, 2) + 1;
+    const ShrunkCore& core = half_core();
+    const PosedShape posed{core.shape, a_.rotation, core.polytope_or_null()};
+    const geometry::Fine below = geometry::reach_along(posed, -rotate(b.rotation, front.normal));
+    return height(a_.origin) - below + std::min<geometry::Fine>(end - start, 0) - turned > near;
+  }
+
+  [[nodiscard]] Hit meet(const SweptShape& b) {
     const Unit half = time_at(k_half_depth, b);
     if (half == k_never) return {};
     const Unit deep = half > Unit{} ? half : time_at(k_last_depth, b);
@@ -139,7 +199,7 @@ class PiecesOfB final : public PieceVisitor {
   }
 
   // As soon as A sinks an eighth deeper than it is.
-  [[nodiscard]] Hit meet_soon(const SweptShape& b) const {
+  [[nodiscard]] Hit meet_soon(const SweptShape& b) {
     for (int depth = 1; depth <= k_last_depth; ++depth) {
       const Unit time = time_at(depth, b);
       if (time == k_never) return {};
@@ -152,7 +212,7 @@ class PiecesOfB final : public PieceVisitor {
 
   // The moment at which the middle of A, deep in B from the beginning, runs into it too: or a rod
   // would pass through a wall that its tip was in.
-  [[nodiscard]] Hit cross(const SweptShape& b) const {
+  [[nodiscard]] Hit cross(const SweptShape& b) {
     for (const int share : {32, 16, 8, 1}) {
       const TimeOfImpact found = find(k_last_depth, b, Unit::from_ratio(share, 64));
       if (found.state == TimeOfImpactState::separated) return {};
@@ -162,14 +222,19 @@ class PiecesOfB final : public PieceVisitor {
   }
 
   // When A, shrunk by a depth, reaches B; 0 when it overlaps from the beginning.
-  [[nodiscard]] Unit time_at(int depth, const SweptShape& b) const {
+  [[nodiscard]] Unit time_at(int depth, const SweptShape& b) {
     const TimeOfImpact found = find(depth, b, Unit::from_integer(1));
     return found.state == TimeOfImpactState::separated ? k_never : found.fraction;
   }
 
-  [[nodiscard]] TimeOfImpact find(int depth, const SweptShape& b, Unit share) const {
+  [[nodiscard]] TimeOfImpact find(int depth, const SweptShape& b, Unit share) {
     LKS_ASSERT(depth >= 0 && depth <= k_last_depth);
-    const ShrunkCore core(a_, inner_radius_ / 8 * depth, share);
+    const Unit whole = Unit::from_integer(1);
+    if (depth == k_half_depth && share == whole) return find(half_core(), b);
+    return find(ShrunkCore(a_, inner_radius_ / 8 * depth, share), b);
+  }
+
+  [[nodiscard]] TimeOfImpact find(const ShrunkCore& core, const SweptShape& b) const {
     const SweptShape a{core.shape, sweep_a_.sweep, core.polytope_or_null(), sweep_a_.origin};
     return time_of_impact(a, b, limits_);
   }
@@ -180,6 +245,8 @@ class PiecesOfB final : public PieceVisitor {
   const TimeOfImpactLimits limits_;
   const PieceSweep sweep_a_;
   const Sweep& motion_b_;
+  std::optional<ShrunkCore> half_core_;
+  Length reach_{};  // 0 until it is known
   Impact& best_;
 };
 

@@ -167,11 +167,8 @@ void ContinuousCollision::run(StepReport& report) {
 // Again when an impact changes how a body turns before its own way is looked at.
 void ContinuousCollision::note_far_mover(std::uint32_t body) {
   const bool is_swept = world_.bodies[body].is_dynamic() && !world_.bodies[body].is_trigger();
-  far_movers_[body] = !went_far(body) ? 0 : is_swept ? k_far_mover : k_sweeper;
-}
-
-bool ContinuousCollision::went_far(std::uint32_t body) const {
-  return goes_far(body, moved_.start(body), world_.bodies[body]);
+  const bool went_far = goes_far(body, moved_.start(body), world_.bodies[body]);
+  far_movers_[body] = !went_far ? 0 : is_swept ? k_far_mover : k_sweeper;
 }
 
 // Farther than half its thickness: a shorter motion cannot take it through anything.
@@ -205,9 +202,11 @@ bool ContinuousCollision::goes_far(std::uint32_t body, const Transform& start,
 void ContinuousCollision::sweep_body(std::uint32_t body, StepReport& report) {
   BodyRecord& record = world_.bodies[body];
   const Transform& start = moved_.start(body);
+  const Bounds way = bounds_on_way(body, {start, record.position - start.position, {}});
   bool is_free = true;
-  visit_obstacles(body, {start, record.position - start.position, {}},
-                  [&](std::uint32_t) { is_free = false; });
+  const auto meet = [&](std::uint32_t) { is_free = false; };
+  visit_sweepers(body, way, meet);
+  if (is_free) visit_obstacles(body, way, meet);
   if (is_free) return passes_.note(body, motion_in_tick(body), {}, k_whole_tick);
   if (!world_.joint_graph.neighbours(body).empty()) return sweep_joined(body, report);
   Sweep motion = motion_in_tick(body);
@@ -343,31 +342,36 @@ Sweep ContinuousCollision::go_on(BodyRecord& record, Unit left) const {
 Sweep ContinuousCollision::motion_of(std::uint32_t body, Unit done) const {
   const BodyRecord& record = world_.bodies[body];
   if (!record.is_awake()) return {pose_of(record), {}, {}};
-  return rest_of(motion_in_tick(body), done);
+  const auto known = std::ranges::lower_bound(sweepers_, body, {}, &Sweeper::body);
+  if (known == sweepers_.end() || known->body != body) return rest_of(motion_in_tick(body), done);
+  const Transform& start = moved_.start(body);
+  const Sweep motion{start, record.position - start.position, known->rotation};
+  return done == Unit{} ? motion : rest_of(motion, done);
 }
 
-// The obstacles at which a body may stop on its path.
+// The sweepers at which a body may stop on its path.
 template <class F>
-void ContinuousCollision::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const {
-  const BodyRecord& record = world_.bodies[body];
-  const Vec3<Position>& from = motion.start.position;
-  const Bounds way = bounds_of_way(from, from + motion.translation,
-                                   bounding_radius(record.shape(), world_.cache.asset(body)));
-  const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
-  const auto visit = [&](std::uint32_t other) {
-    const bool considered =
-        other != body && (record.is_bullet() || !world_.bodies[other].is_dynamic());
-    if (!considered || is_sweeper(other) || !world_.is_obstacle(body, other)) return;
-    moved_.note_look(body, other);
-    f(other);
-  };
+void ContinuousCollision::visit_sweepers(std::uint32_t body, const Bounds& way, F&& f) const {
   moved_.note_look(body, body);
   for (const Sweeper& each : sweepers_) {
     if (!overlap(way, each.way) || !world_.is_obstacle(body, each.body)) continue;
     moved_.note_look(body, each.body);
     f(each.body);
   }
-  if (record.is_bullet())
+}
+
+// All other obstacles there.
+template <class F>
+void ContinuousCollision::visit_obstacles(std::uint32_t body, const Bounds& way, F&& f) const {
+  const bool is_bullet = world_.bodies[body].is_bullet();
+  const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
+  const auto visit = [&](std::uint32_t other) {
+    const bool considered = other != body && (is_bullet || !world_.bodies[other].is_dynamic());
+    if (!considered || is_sweeper(other) || !world_.is_obstacle(body, other)) return;
+    moved_.note_look(body, other);
+    f(other);
+  };
+  if (is_bullet)
     world_.broad_phase.traverse(k_every_category, test, visit);
   else
     world_.broad_phase.traverse_immovable(test, visit);
@@ -379,7 +383,7 @@ NextImpact ContinuousCollision::find_impact(std::uint32_t body, const Sweep& mot
   const Length inner = world_.cache.inner_radius(body);
   const Length radius = bounding_radius(shape, world_.cache.asset(body));
   NextImpact next;
-  visit_obstacles(body, motion, [&](std::uint32_t other) {
+  const auto meet = [&](std::uint32_t other) {
     const Shape other_shape = world_.bodies[other].shape();
     const Sweep other_motion = motion_of(other, done);
     const Length turned = radius > inner ? radius : Length{};
@@ -395,7 +399,10 @@ NextImpact ContinuousCollision::find_impact(std::uint32_t body, const Sweep& mot
     if (sooner &&
         !passes_on_way(world_, narrow_, {body, other}, motion, other_motion, impact.fraction))
       next = {other, impact};
-  });
+  };
+  const Bounds way = bounds_on_way(body, motion);
+  visit_sweepers(body, way, meet);
+  visit_obstacles(body, way, meet);
   return next;
 }
 

@@ -42,6 +42,7 @@ struct NextImpact {
 /// A body that sweeps over others (sweepers.cpp).
 struct Sweeper {
   std::uint32_t body = 0;
+  RotationVector rotation{};  // in the tick
   Bounds way{};
 };
 
@@ -75,7 +76,6 @@ class ContinuousCollision {
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
 
  private:
-  [[nodiscard]] bool went_far(std::uint32_t body) const;
   /// From a pose to that of `end`.
   [[nodiscard]] bool goes_far(std::uint32_t body, const Transform& start,
                               const BodyRecord& end) const;
@@ -83,7 +83,9 @@ class ContinuousCollision {
   void sweep_joined(std::uint32_t body, StepReport& report);
   void list_joined(std::uint32_t body);
   template <class F>
-  void visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const;
+  void visit_sweepers(std::uint32_t body, const Bounds& way, F&& f) const;
+  template <class F>
+  void visit_obstacles(std::uint32_t body, const Bounds& way, F&& f) const;
   [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
   void resolve(std::uint32_t body, const NextImpact& next, Unit done);
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/collision/continuous/first_impact.h"
 #include "core/dynamics/body/motion.h"
 #include "core/world/phases/motion/continuous.h"
@@ -25,9 +27,12 @@ Bounds ContinuousCollision::bounds_on_way(std::uint32_t body, const Sweep& motio
 // sweepers are looked for in the list and not there.
 void ContinuousCollision::list_sweepers() {
   sweepers_.clear();
-  for (const std::uint32_t body : moved_.bodies())
-    if ((far_movers_[body] & k_sweeper) != 0)
-      sweepers_.push_back({body, bounds_on_way(body, motion_in_tick(body))});
+  for (const std::uint32_t body : moved_.bodies()) {
+    if ((far_movers_[body] & k_sweeper) == 0) continue;
+    const Sweep motion = motion_in_tick(body);
+    sweepers_.push_back({body, motion.rotation, bounds_on_way(body, motion)});
+  }
+  LKS_ASSERT(std::ranges::is_sorted(sweepers_, {}, &Sweeper::body));
   for (const Sweeper& each : sweepers_) {
     moved_.note_look(each.body, each.body);
     if (world_.bodies[each.body].is_trigger()) continue;
