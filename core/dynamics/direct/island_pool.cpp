@@ -67,6 +67,13 @@ IslandPool::Island IslandPool::place(std::size_t bodies, std::size_t contacts,
   return island;
 }
 
+bool IslandPool::has_room(std::size_t bodies, std::size_t problems) {
+  const bool fits = bodies_.size() + bodies <= capacity_.bodies &&
+                    problems_.size() + problems <= capacity_.problems;
+  was_full_ = was_full_ || !fits;
+  return fits;
+}
+
 bool IslandPool::fits(const Island& island) const {
   return std::size_t{island.first_body} + island.bodies <= capacity_.bodies &&
          std::size_t{island.first_problem} + island.contacts + island.joints <=
@@ -76,7 +83,7 @@ bool IslandPool::fits(const Island& island) const {
 
 // Plans the factor of an island. False if it would be too large.
 bool IslandPool::plan(Island& island, std::span<const std::uint32_t> bodies,
-                      std::span<const ProximalContact> contacts,
+                      std::span<const IslandContact> contacts,
                       std::span<const IslandJoint> joints) {
   LKS_ASSERT(island.bodies == bodies.size() && std::ranges::is_sorted(bodies));
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
@@ -85,7 +92,7 @@ bool IslandPool::plan(Island& island, std::span<const std::uint32_t> bodies,
   const auto add_pair = [this](std::uint32_t a, std::uint32_t b) {
     if (a != 0 && b != 0) pairs_.emplace_back(local_[a], local_[b]);
   };
-  for (const ProximalContact& contact : contacts)
+  for (const IslandContact& contact : contacts)
     add_pair(contact.a, contact.b);
   for (const IslandJoint& joint : joints)
     add_pair(joint.a, joint.b);
@@ -93,17 +100,21 @@ bool IslandPool::plan(Island& island, std::span<const std::uint32_t> bodies,
   return factor_.plan(island.bodies, pairs_, island.plan);
 }
 
-bool IslandPool::add(std::span<const std::uint32_t> bodies,
-                     std::span<const ProximalContact> contacts,
+bool IslandPool::add(std::span<const std::uint32_t> bodies, std::span<const IslandContact> contacts,
                      std::span<const IslandJoint> joints) {
   LKS_ASSERT(!bodies.empty() && !contacts.empty());
   Island island = place(bodies.size(), contacts.size(), joints.size());
   was_full_ = was_full_ || !fits(island);
   if (!fits(island) || !plan(island, bodies, contacts, joints)) return false;
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
-  contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
+  for (const IslandContact& contact : contacts) {
+    ProximalContact& added = contacts_.emplace_back();
+    added.id = contact.id;
+    added.a = contact.a;
+    added.b = contact.b;
+  }
   joints_.insert(joints_.end(), joints.begin(), joints.end());
-  for (const ProximalContact& contact : contacts)
+  for (const IslandContact& contact : contacts)
     add_problem(island, contact.a, contact.b);
   for (const IslandJoint& joint : joints)
     add_problem(island, joint.a, joint.b);

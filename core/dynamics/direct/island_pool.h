@@ -35,6 +35,13 @@ struct MatrixBlocks {
   BodyFactor::Place both{k_none, false};
 };
 
+/// A contact of an island as it is added; a and b are the pair's numbers in the solver, 0 for a
+/// body that nothing moves.
+struct IslandContact {
+  ContactId id;
+  std::uint32_t a = 0, b = 0;
+};
+
 /// A body's change of velocity in a phase, m/s, Q32.
 struct PhaseGain {
   RawVec3 velocity{}, spin{};
@@ -78,11 +85,12 @@ class IslandPool {
 
   void clear();
 
+  /// Whether an island of this size may find a place.
+  [[nodiscard]] bool has_room(std::size_t bodies, std::size_t problems);
   /// An island whose bodies, contacts and joints are given in their order; false if it is too
-  /// large. Bodies are numbers in the solver; of a contact the pair's numbers are read, 0 for a
-  /// body that nothing moves.
+  /// large. Bodies are numbers in the solver.
   [[nodiscard]] bool add(std::span<const std::uint32_t> bodies,
-                         std::span<const ProximalContact> contacts,
+                         std::span<const IslandContact> contacts,
                          std::span<const IslandJoint> joints);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(islands_.size()); }
@@ -119,7 +127,7 @@ class IslandPool {
   [[nodiscard]] Island place(std::size_t bodies, std::size_t contacts, std::size_t joints) const;
   [[nodiscard]] bool fits(const Island& island) const;
   [[nodiscard]] bool plan(Island& island, std::span<const std::uint32_t> bodies,
-                          std::span<const ProximalContact> contacts,
+                          std::span<const IslandContact> contacts,
                           std::span<const IslandJoint> joints);
   void add_problem(const Island& island, std::uint32_t a, std::uint32_t b);
 

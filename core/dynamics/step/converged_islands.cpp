@@ -44,6 +44,7 @@ void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodie
   for (std::uint32_t island = 1; island < islands.count(); ++island) {
     IslandTally& tally = islands.tally(island);
     if (!effort.may_converge(tally)) continue;
+    if (!solver_.islands().has_room(tally.bodies, tally.contacts)) continue;
     list(contacts, islands, joints, island);
     LKS_ASSERT(bodies_.size() == tally.bodies && contacts_.size() == tally.contacts);
     tally.is_converged = solver_.islands().add(bodies_, contacts_, joints_);
@@ -62,11 +63,8 @@ void ConvergedIslands::list(const ContactList& contacts, const IslandBuilder& is
   LKS_ASSERT(std::ranges::is_sorted(bodies_));
   const auto pushed = [&](BodyRef body) { return islands.of(body) == 0 ? 0 : body.number(); };
   lists_.for_contacts(island, [&](ContactId id) {
-    ProximalContact& contact = contacts_.emplace_back();
-    contact.id = id;
-    contact.a = pushed(contacts[id].a);
-    contact.b = pushed(contacts[id].b);
-    LKS_ASSERT(contact.a != contact.b);
+    contacts_.push_back({id, pushed(contacts[id].a), pushed(contacts[id].b)});
+    LKS_ASSERT(contacts_.back().a != contacts_.back().b);
   });
   lists_.for_joints(island, [&](std::uint32_t link) {
     joints_.push_back(joints.solver().island_joints().joint(joints.solver().number_of(link)));

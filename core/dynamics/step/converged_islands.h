@@ -79,7 +79,7 @@ class ConvergedIslands {
   BlockSolver solver_;
   IslandLists lists_;
   std::vector<std::uint32_t> bodies_;  // of the island at hand
-  std::vector<ProximalContact> contacts_;
+  std::vector<IslandContact> contacts_;
   std::vector<IslandJoint> joints_;
 };
 
