@@ -1,21 +1,13 @@
 // Whether bodies overlap, found by a shortcut or by all of their contacts.
 #include <gtest/gtest.h>
 
-#include <lockstone/hull.h>
 #include <lockstone/mesh.h>
 
 #include "core/collision/narrow_phase/collide_bodies.h"
-#include "tests/geometry/assets/asset_parts.h"
+#include "tests/collision/random_rock.h"
 
 namespace lockstone::test {
 namespace {
-
-AssetPtr random_rock(Dice& dice) {
-  std::vector<Vec3<Length>> points;
-  for (int i = 0; i < 20; ++i)
-    points.push_back(metres(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)));
-  return Hull::build(points).hull;
-}
 
 PlacedShape placed_near(Dice& dice, const Shape& shape, const Asset* asset, double reach) {
   Vec3<Position> at;
@@ -30,7 +22,7 @@ TEST(BodiesOverlap, AgreesWithTheContactsOfBalls) {
   PartContacts contacts;
   int overlapping = 0, apart = 0;
   for (int round = 0; round < 4000; ++round) {
-    const AssetPtr rock = round % 2 == 0 ? random_rock(dice) : nullptr;
+    const AssetPtr rock = round % 2 == 0 ? random_rock(dice, 20, 1, 1, 1) : nullptr;
     const Shape shape = rock != nullptr
                             ? rock->shape()
                             : dice.shape(static_cast<ShapeKind>(dice.between(0, 2)), 0.1, 1);

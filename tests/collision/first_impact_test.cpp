@@ -3,21 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <lockstone/hull.h>
 #include <lockstone/mesh.h>
 
-#include "tests/geometry/assets/asset_parts.h"
+#include "tests/collision/random_rock.h"
 #include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
-
-AssetPtr long_rock(Dice& dice) {
-  std::vector<Vec3<Length>> points;
-  for (int i = 0; i < 16; ++i)
-    points.push_back(metres(dice.uniform(-0.6, 0.6), dice.uniform(-1, 1), dice.uniform(-0.4, 0.4)));
-  return Hull::build(points).hull;
-}
 
 // A ground of 8 × 8 squares of a metre, each of two triangles, up to half a metre high.
 AssetPtr random_ground(Dice& dice) {
@@ -61,7 +53,7 @@ TEST(FirstImpact, LeavesOutNoTriangleThatIsMet) {
   int hits = 0, misses = 0;
   for (int round = 0; round < share_of(3000); ++round) {
     const AssetPtr ground = random_ground(dice);
-    const AssetPtr rock = round % 4 == 0 ? long_rock(dice) : nullptr;
+    const AssetPtr rock = round % 4 == 0 ? random_rock(dice, 16, 0.6, 1, 0.4) : nullptr;
     const Shape shape = rock != nullptr
                             ? rock->shape()
                             : dice.shape(static_cast<ShapeKind>(dice.between(0, 2)), 0.05, 0.8);
