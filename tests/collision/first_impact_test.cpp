@@ -11,34 +11,18 @@
 namespace lockstone::test {
 namespace {
 
-// A ground of 8 × 8 squares of a metre, each of two triangles, up to half a metre high.
 AssetPtr random_ground(Dice& dice) {
-  constexpr std::uint32_t k_side = 9;
-  std::vector<Vec3<Length>> vertices;
-  std::vector<TriangleIndices> triangles;
-  for (std::uint32_t i = 0; i < k_side * k_side; ++i) {
-    const double x = i % k_side, z = i / k_side;
-    vertices.push_back(metres(x - 4, dice.uniform(0, 0.5), z - 4));
-  }
-  for (std::uint32_t row = 0; row + 1 < k_side; ++row) {
-    for (std::uint32_t column = 0; column + 1 < k_side; ++column) {
-      const std::uint32_t at = row * k_side + column;
-      triangles.push_back(TriangleIndices{at, at + k_side, at + 1});
-      triangles.push_back(TriangleIndices{at + 1, at + k_side, at + k_side + 1});
-    }
-  }
-  MeshDef def;
-  def.vertices = vertices;
-  def.triangles = triangles;
-  return Mesh::build(def).mesh;
+  const Triangles hills = grid(9, 9, 1, [&](int, int) { return dice.uniform(0, 0.5); });
+  return Mesh::build(hills.def()).mesh;
 }
 
+// Over the middle of the ground.
 Sweep random_sweep(Dice& dice) {
   Sweep sweep;
   sweep.start.orientation = dice.orientation();
+  const Vec3<Length> start = metres(dice.uniform(2, 6), dice.uniform(0, 1.5), dice.uniform(2, 6));
   for (int i = 0; i < 3; ++i) {
-    const double reach = i == 1 ? 1.5 : 2;
-    sweep.start.position[i] = rounded<Position>(metres(dice.uniform(i == 1 ? 0 : -2, reach)));
+    sweep.start.position[i] = rounded<Position>(start[i]);
     sweep.translation[i] = rounded<Position>(metres(dice.uniform(-1, 1)));
     sweep.rotation[i] =
         RotationComponent::from_raw(static_cast<std::int64_t>(dice.uniform(-0.7, 0.7) * 0x1p32));

@@ -39,12 +39,20 @@ Piece as_box(const Piece& half_space, const Vec3<Position>& above) {
   return box;
 }
 
+// At least the angle of a turn, rad.
+Position angle_of(const RotationVector& rotation) {
+  Position angle{};
+  for (int i = 0; i < 3; ++i)
+    angle += Position::from_raw(abs(rotation[i]).raw);
+  return angle;
+}
+
 // At least how far the turning of B takes any of its points that A may come to: the angle times
 // their distance from its centre, or across it.
 Position turned_way(const MovingShape& a, const MovingShape& b, Position radius_a) {
-  Position angle{}, reach = radius_a;  // in rad
+  const Position angle = angle_of(b.motion.rotation);
+  Position reach = radius_a;
   for (int i = 0; i < 3; ++i) {
-    angle += Position::from_raw(abs(b.motion.rotation[i]).raw);
     reach += abs(a.motion.start.position[i] - b.motion.start.position[i]);
     reach += abs(a.motion.translation[i]) + abs(b.motion.translation[i]);
   }
@@ -80,15 +88,34 @@ OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
   return box;
 }
 
-// Rounded up.
-std::int64_t length_of(const Vec3<Length>& v) {
-  return static_cast<std::int64_t>(norm(v.x.raw, v.y.raw, v.z.raw)) + 1;
-}
-
 // Depths in eighths of the inner radius. At the last two it is decided whether this is an impact at
 // all; then the moment is that of the least depth to which A has not sunk from the beginning.
 constexpr int k_half_depth = 4;
 constexpr int k_last_depth = 7;
+
+// A piece of A, sunk in by half, as it is tried against each piece of B.
+struct HalfCore {
+  ShrunkCore core;
+  Length reach;  // at least that of any point of it from the centre that A turns about
+
+  HalfCore(const Piece& piece, Length inner_radius, const Vec3<Length>& origin)
+      : core(piece, inner_radius / 8 * k_half_depth), reach(reach_of(core, origin)) {}
+
+ private:
+  static Length reach_of(const ShrunkCore& core, const Vec3<Length>& origin) {
+    // Rounded up.
+    const auto length = [](const Vec3<Length>& v) {
+      return static_cast<std::int64_t>(norm(v.x.raw, v.y.raw, v.z.raw)) + 1;
+    };
+    std::int64_t farthest = 0;
+    for (const Vec3<Length>& vertex : core.polytope.vertices)
+      farthest = std::max(farthest, length(vertex));
+    const Length radius =
+        core.is_polytope ? core.polytope.radius : bounding_radius(core.shape, nullptr);
+    LKS_ASSERT(radius >= Length{});
+    return Length::from_raw(raw::saturate<std::int32_t>(length(origin) + farthest + radius.raw));
+  }
+};
 
 // Nothing passes a triangle from its front: a shape that has sunk in beside it, and is nearest to a
 // rim from below, is stopped by the front as well.
@@ -133,23 +160,9 @@ class PiecesOfB final : public PieceVisitor {
     Vec3<Unit> crossing{};
   };
 
-  // A, sunk in by half, as it is tried against each piece of B.
-  [[nodiscard]] const ShrunkCore& half_core() {
-    if (!half_core_) half_core_.emplace(a_, inner_radius_ / 8 * k_half_depth);
-    return *half_core_;
-  }
-
-  // At least how far any point of the half core is from the centre that A turns about.
-  [[nodiscard]] Length find_reach() {
-    const ShrunkCore& core = half_core();
-    std::int64_t farthest = 0;
-    for (const Vec3<Length>& vertex : core.polytope.vertices)
-      farthest = std::max(farthest, length_of(vertex));
-    const Length radius =
-        core.is_polytope ? core.polytope.radius : bounding_radius(core.shape, nullptr);
-    const std::int64_t reach = length_of(sweep_a_.origin) + farthest + radius.raw;
-    LKS_ASSERT(reach > 0);
-    return Length::from_raw(raw::saturate<std::int32_t>(reach));
+  [[nodiscard]] const HalfCore& half() {
+    if (!half_) half_.emplace(a_, inner_radius_, sweep_a_.origin);
+    return *half_;
   }
 
   // Whether the half core stays in front of a triangle that stands still, so that it never comes as
@@ -159,29 +172,23 @@ class PiecesOfB final : public PieceVisitor {
     const bool stands =
         motion_b_.translation == Vec3<Position>{} && motion_b_.rotation == RotationVector{};
     if (!b.triangle.is_triangle || !stands) return false;
-    if (reach_ == Length{}) reach_ = find_reach();
-    LKS_ASSERT(reach_ > Length{});
+    const auto& [core, reach] = half();
     constexpr Length k_widest = Length::from_integer(256);  // sums below fit
-    if (reach_ > k_widest) return false;
-    const geometry::PolytopeFace& front = b.polytope->faces.front();
-    const auto height = [&](const Vec3<Position>& point) {
-      const Vec3<Position> local = rotate_inverse(b.rotation, point - b.origin);
-      return dot(front.normal, saturated<Length>(local)).raw - front.offset;
-    };
+    if (reach > k_widest) return false;
+    LKS_ASSERT(reach > Length{});
     const Sweep& way = sweep_a_.sweep;
-    const geometry::Fine start = height(way.start.position);
-    const geometry::Fine end = height(way.start.position + way.translation);
+    const geometry::Fine start = height_above_front(way.start.position, b);
+    const geometry::Fine end = height_above_front(way.start.position + way.translation, b);
     const geometry::Fine near = geometry::fine((limits_.target + limits_.tolerance) * 2);
-    if (std::min(start, end) > geometry::fine(reach_) + near) return true;
-    std::int64_t angle = 0;  // rad, Q32
-    for (int i = 0; i < 3; ++i)
-      angle += abs(way.rotation[i]).raw;
-    if (angle >= std::int64_t{1} << 32) return false;
-    const geometry::Fine turned = raw::multiply_shift(angle, reach_.raw, 2) + 1;
-    const ShrunkCore& core = half_core();
+    if (std::min(start, end) > geometry::fine(reach) + near) return true;
+    const Position angle = angle_of(way.rotation);
+    if (angle >= Position::from_integer(1)) return false;
+    const geometry::Fine turned = raw::multiply_shift(angle.raw, reach.raw, 2) + 1;
     const PosedShape posed{core.shape, a_.rotation, core.polytope_or_null()};
-    const geometry::Fine below = geometry::reach_along(posed, -rotate(b.rotation, front.normal));
-    return height(a_.origin) - below + std::min<geometry::Fine>(end - start, 0) - turned > near;
+    const Vec3<Unit> down = -rotate(b.rotation, b.polytope->faces.front().normal);
+    const geometry::Fine least =
+        height_above_front(a_.origin, b) - geometry::reach_along(posed, down);
+    return least + std::min<geometry::Fine>(end - start, 0) - turned > near;
   }
 
   [[nodiscard]] Hit meet(const SweptShape& b) {
@@ -230,7 +237,7 @@ class PiecesOfB final : public PieceVisitor {
   [[nodiscard]] TimeOfImpact find(int depth, const SweptShape& b, Unit share) {
     LKS_ASSERT(depth >= 0 && depth <= k_last_depth);
     const Unit whole = Unit::from_integer(1);
-    if (depth == k_half_depth && share == whole) return find(half_core(), b);
+    if (depth == k_half_depth && share == whole) return find(half().core, b);
     return find(ShrunkCore(a_, inner_radius_ / 8 * depth, share), b);
   }
 
@@ -245,8 +252,7 @@ class PiecesOfB final : public PieceVisitor {
   const TimeOfImpactLimits limits_;
   const PieceSweep sweep_a_;
   const Sweep& motion_b_;
-  std::optional<ShrunkCore> half_core_;
-  Length reach_{};  // 0 until it is known
+  std::optional<HalfCore> half_;  // once it is asked for
   Impact& best_;
 };
 

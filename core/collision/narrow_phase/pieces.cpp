@@ -86,12 +86,16 @@ Vec3<Position> middle_of(const Piece& piece) {
   return piece.origin + rounded<Position>(rotate(piece.rotation, piece.polytope->interior));
 }
 
-bool is_behind(const Vec3<Position>& point, const Piece& piece) {
-  if (!piece.triangle.is_triangle) return false;
-  const geometry::PolytopeFace& front = piece.polytope->faces.front();
+geometry::Fine height_above_front(const Vec3<Position>& point, const Piece& triangle) {
+  LKS_ASSERT(triangle.triangle.is_triangle);
+  const geometry::PolytopeFace& front = triangle.polytope->faces.front();
   const Vec3<Length> local =
-      rotate_inverse(piece.rotation, saturated<Length>(point - piece.origin));
-  return dot(front.normal, local).raw < front.offset;
+      rotate_inverse(triangle.rotation, saturated<Length>(point - triangle.origin));
+  return dot(front.normal, local).raw - front.offset;
+}
+
+bool is_behind(const Vec3<Position>& point, const Piece& piece) {
+  return piece.triangle.is_triangle && height_above_front(point, piece) < 0;
 }
 
 PlacedShape brought_near(const PlacedShape& placed, const Vec3<Position>& point) {

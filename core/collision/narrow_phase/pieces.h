@@ -6,6 +6,7 @@
 #include "core/collision/narrow_phase/placed_shape.h"
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/distance/manifold.h"
+#include "core/geometry/numeric/q50.h"
 
 namespace lockstone {
 
@@ -68,6 +69,9 @@ struct OrientedBox {
 /// point inside. The middle of a hull's bounds may be outside, and behind a front that the hull is
 /// before.
 [[nodiscard]] Vec3<Position> middle_of(const Piece& piece);
+
+/// How far a point is above the front of a triangle's plane.
+[[nodiscard]] geometry::Fine height_above_front(const Vec3<Position>& point, const Piece& triangle);
 
 /// Whether the piece is a triangle of a mesh and the point lies behind it: triangles are met from
 /// the front only.

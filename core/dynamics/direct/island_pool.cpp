@@ -67,18 +67,12 @@ IslandPool::Island IslandPool::place(std::size_t bodies, std::size_t contacts,
   return island;
 }
 
-bool IslandPool::has_room(std::size_t bodies, std::size_t problems) {
+bool IslandPool::has_room(std::size_t bodies, std::size_t contacts, std::size_t joints) {
   const bool fits = bodies_.size() + bodies <= capacity_.bodies &&
-                    problems_.size() + problems <= capacity_.problems;
+                    problems_.size() + contacts + joints <= capacity_.problems &&
+                    joints_.size() + joints <= capacity_.joints;
   was_full_ = was_full_ || !fits;
   return fits;
-}
-
-bool IslandPool::fits(const Island& island) const {
-  return std::size_t{island.first_body} + island.bodies <= capacity_.bodies &&
-         std::size_t{island.first_problem} + island.contacts + island.joints <=
-             capacity_.problems &&
-         std::size_t{island.first_joint} + island.joints <= capacity_.joints;
 }
 
 // Plans the factor of an island. False if it would be too large.
@@ -104,8 +98,9 @@ bool IslandPool::add(std::span<const std::uint32_t> bodies, std::span<const Isla
                      std::span<const IslandJoint> joints) {
   LKS_ASSERT(!bodies.empty() && !contacts.empty());
   Island island = place(bodies.size(), contacts.size(), joints.size());
-  was_full_ = was_full_ || !fits(island);
-  if (!fits(island) || !plan(island, bodies, contacts, joints)) return false;
+  LKS_ASSERT(is_reserved(bodies_, bodies_.size() + bodies.size()));
+  LKS_ASSERT(is_reserved(problems_, problems_.size() + contacts.size() + joints.size()));
+  if (!plan(island, bodies, contacts, joints)) return false;
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
   for (const IslandContact& contact : contacts) {
     ProximalContact& added = contacts_.emplace_back();

@@ -85,10 +85,10 @@ class IslandPool {
 
   void clear();
 
-  /// Whether an island of this size may find a place.
-  [[nodiscard]] bool has_room(std::size_t bodies, std::size_t problems);
-  /// An island whose bodies, contacts and joints are given in their order; false if it is too
-  /// large. Bodies are numbers in the solver.
+  /// Whether the pools have room for an island of this size, without its factor.
+  [[nodiscard]] bool has_room(std::size_t bodies, std::size_t contacts, std::size_t joints);
+  /// An island that there is room for, whose bodies, contacts and joints are given in their order;
+  /// false if its factor is too large. Bodies are numbers in the solver.
   [[nodiscard]] bool add(std::span<const std::uint32_t> bodies,
                          std::span<const IslandContact> contacts,
                          std::span<const IslandJoint> joints);
@@ -125,7 +125,6 @@ class IslandPool {
   };
 
   [[nodiscard]] Island place(std::size_t bodies, std::size_t contacts, std::size_t joints) const;
-  [[nodiscard]] bool fits(const Island& island) const;
   [[nodiscard]] bool plan(Island& island, std::span<const std::uint32_t> bodies,
                           std::span<const IslandContact> contacts,
                           std::span<const IslandJoint> joints);

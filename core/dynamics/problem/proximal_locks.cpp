@@ -66,8 +66,8 @@ void ProximalLocks::add_joint(const End& a, const End& b) {
 
 std::uint32_t ProximalLocks::end_group(std::uint32_t bodies) {
   Group& group = groups_.back();
-  if (group.unit.mantissa != 0 && may_fit(bodies, group.joints) &&
-      factor_.plan(bodies, pairs_, group.plan)) {
+  LKS_ASSERT(may_fit(bodies, group.joints));
+  if (group.unit.mantissa != 0 && factor_.plan(bodies, pairs_, group.plan)) {
     for (Joint& joint : joints_of(group))
       joint.mass = mass_scale(group.unit, joint.inverse_mass);
     return static_cast<std::uint32_t>(groups_.size() - 1);

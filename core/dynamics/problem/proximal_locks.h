@@ -36,7 +36,7 @@ class ProximalLocks {
     BlockFloat inverse_mass{};
   };
 
-  /// Whether a group of this size may have a factor. `end_group` decides.
+  /// Whether a group of this size may have a factor. Only such groups are begun.
   [[nodiscard]] static bool may_fit(std::uint32_t bodies, std::uint32_t joints) {
     return bodies <= BodyFactor::k_most_bodies && joints <= k_most_joints;
   }

@@ -44,9 +44,10 @@ void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodie
   for (std::uint32_t island = 1; island < islands.count(); ++island) {
     IslandTally& tally = islands.tally(island);
     if (!effort.may_converge(tally)) continue;
-    if (!solver_.islands().has_room(tally.bodies, tally.contacts)) continue;
+    if (!solver_.islands().has_room(tally.bodies, tally.contacts, tally.joints)) continue;
     list(contacts, islands, joints, island);
     LKS_ASSERT(bodies_.size() == tally.bodies && contacts_.size() == tally.contacts);
+    LKS_ASSERT(joints_.size() == tally.joints);
     tally.is_converged = solver_.islands().add(bodies_, contacts_, joints_);
     if (!tally.is_converged) continue;
     for (const IslandJoint& joint : joints_)

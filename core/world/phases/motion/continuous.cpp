@@ -315,10 +315,16 @@ void ContinuousCollision::list_joined(std::uint32_t body) {
   }
 }
 
+// How sweepers turn is known once they are listed.
 Sweep ContinuousCollision::motion_in_tick(std::uint32_t body) const {
   const BodyRecord& record = world_.bodies[body];
   const Transform& start = moved_.start(body);
-  return {start, record.position - start.position,
+  const Vec3<Position> way = record.position - start.position;
+  if (is_sweeper(body)) {
+    const auto known = std::ranges::lower_bound(sweepers_, body, {}, &Sweeper::body);
+    if (known != sweepers_.end() && known->body == body) return {start, way, known->rotation};
+  }
+  return {start, way,
           turn_since(start.orientation, world_.cache.rotation(body), record, world_.time_step,
                      k_whole_tick)};
 }
@@ -342,11 +348,7 @@ Sweep ContinuousCollision::go_on(BodyRecord& record, Unit left) const {
 Sweep ContinuousCollision::motion_of(std::uint32_t body, Unit done) const {
   const BodyRecord& record = world_.bodies[body];
   if (!record.is_awake()) return {pose_of(record), {}, {}};
-  const auto known = std::ranges::lower_bound(sweepers_, body, {}, &Sweeper::body);
-  if (known == sweepers_.end() || known->body != body) return rest_of(motion_in_tick(body), done);
-  const Transform& start = moved_.start(body);
-  const Sweep motion{start, record.position - start.position, known->rotation};
-  return done == Unit{} ? motion : rest_of(motion, done);
+  return rest_of(motion_in_tick(body), done);
 }
 
 // The sweepers at which a body may stop on its path.
