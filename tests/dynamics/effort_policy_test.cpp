@@ -1,14 +1,47 @@
 #include "core/dynamics/step/islands/effort_policy.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/dynamics/step/input/contact_params.h"
+#include "core/dynamics/step/islands/island_lists.h"
+#include "tests/dynamics/tick_scene.h"
 
 namespace lockstone {
 namespace {
 
 EffortPolicy policy(std::size_t contacts) {
   return {TimeStep::of(60, 4), contacts};
+}
+
+// This many bodies are stirred by more than 1/4 m/s, and none by more than 1/2.
+void stir(IslandTally& island, std::uint32_t bodies) {
+  island.motion.stirred = {bodies, bodies, bodies};
+}
+
+// Bodies on the ground, each against the next, that go to and fro, with velocities in sixteenths of
+// a metre a second. One at an end may be 128 times as heavy as the others.
+int stir_level_of_row(const std::vector<int>& sixteenths, bool has_heavy_end = false) {
+  TickScene scene;
+  std::uint32_t last = scene.add_body(k_static);
+  for (const int x : sixteenths) {
+    const std::uint32_t body = scene.add_body(k_dynamic);
+    scene.body(body).inverse_mass = 1 << 30;
+    if (has_heavy_end && body == 1) scene.body(body).inverse_mass_exponent = -7;
+    scene.body(body).velocity.x = Velocity::from_ratio(x, 16);
+    scene.add_contact(last, body);
+    last = body;
+  }
+  scene.gather();
+  scene.islands.build(scene.get(), scene.bodies, scene.contacts);
+  const TickJoints joints(TimeStep::of(60, 4), TickScene::k_capacity, TickScene::k_capacity,
+                          TickScene::k_capacity, true, scene.bodies);
+  EffortPolicy::mark_iterated(scene.get(), scene.bodies, scene.contacts, joints, scene.islands);
+  IslandLists lists(TickScene::k_capacity, TickScene::k_capacity, TickScene::k_capacity);
+  lists.build(scene.get(), scene.bodies, scene.contacts, scene.islands);
+  EffortPolicy::mark_stirred(scene.get(), scene.bodies, scene.islands);
+  return EffortPolicy::stir_level(scene.islands.tally(scene.contacts[{0}]));
 }
 
 TEST(EffortPolicy, ConvergesIslandsUpToItsSize) {
@@ -38,21 +71,40 @@ TEST(EffortPolicy, ConvergesNeitherPinchedIslandsNorThoseLeftToIterations) {
 TEST(EffortPolicy, CallsAPileLooseFromWhenAQuarterIsStirredUntilHalfIsNot) {
   IslandTally island;
   island.bodies = 100;
-  island.stirred = 25;
+  stir(island, 25);
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
-  island.stirred = 26;
+  stir(island, 26);
   EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
-  island.stirred = 0;
+  stir(island, 0);
   island.loose = 51;
   EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
   island.loose = 50;
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
 }
 
+TEST(EffortPolicy, CallsAnIslandAsStirredAsMoreThanAQuarterOfItsBodiesAre) {
+  EXPECT_EQ(stir_level_of_row({0, 0, 0, 0}), 0);
+  EXPECT_EQ(stir_level_of_row({1, -1, 1, -1}), 0);
+  EXPECT_EQ(stir_level_of_row({2, -2, 2, -2}), 1);
+  EXPECT_EQ(stir_level_of_row({4, -4, 4, -4}), 2);
+  EXPECT_EQ(stir_level_of_row({5, -5, 5, -5}), 3);
+  EXPECT_EQ(stir_level_of_row({32, -32, 32, -32}), 5);
+  EXPECT_EQ(stir_level_of_row({1000, -1000}), 6);
+  // All at one speed, or one of four alone.
+  EXPECT_EQ(stir_level_of_row({900, 900, 900, 900}), 0);
+  EXPECT_EQ(stir_level_of_row({6, -2, -2, -2}), 1);
+  EXPECT_EQ(stir_level_of_row({6, 6, -6, -6}), 3);
+}
+
+TEST(EffortPolicy, CallsNoIslandOfUnevenMassesStirred) {
+  EXPECT_EQ(stir_level_of_row({32, -32, 32, -32}, false), 5);
+  EXPECT_EQ(stir_level_of_row({32, -32, 32, -32}, true), 0);
+}
+
 TEST(EffortPolicy, KeepsAPileLooseForFourSecondsAfterItWasStirred) {
   IslandTally stirred, calm, tight;
   stirred.bodies = calm.bodies = 100;
-  stirred.stirred = 50;
+  stir(stirred, 50);
   stirred.is_loose = calm.is_loose = true;
   for (const int rate : {10, 60, 120, 480}) {
     const TimeStep step = TimeStep::of(rate, 4);
@@ -73,7 +125,8 @@ TEST(EffortPolicy, KeepsAPileLooseForFourSecondsAfterItWasStirred) {
 
 TEST(EffortPolicy, CallsNoIslandWithoutJointsLooseThatIsSmallOrUneven) {
   IslandTally island;
-  island.bodies = island.stirred = 24;
+  island.bodies = 24;
+  stir(island, 24);
   EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
   --island.bodies;
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
@@ -85,7 +138,8 @@ TEST(EffortPolicy, CallsNoIslandWithoutJointsLooseThatIsSmallOrUneven) {
 TEST(EffortPolicy, CallsNoIslandWithJointsLooseThatIsSmallUnevenOrCarried) {
   IslandTally island;
   island.joints = 1;
-  island.bodies = island.stirred = 8;
+  island.bodies = 8;
+  stir(island, 8);
   island.least_share = (1 << 30) / 32;
   EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
   --island.least_share;

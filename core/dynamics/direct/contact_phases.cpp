@@ -20,9 +20,10 @@ using lanes::scalar::pack;
 using Problem = lanes::ProximalBlock;
 using RowWords = std::array<std::int64_t, k_contact_rows>;
 
-// A change of speed is none below this, m/s, Q50, nor below 2^-k_loose_bits of an approach.
+// A change of speed is none below this, m/s, Q50, nor below 2^-k_loose_bits of an approach; while
+// the bodies are stirred, it is none below 2^k_stir_bits of this for each level.
 constexpr std::int64_t k_least_contact_change = (std::int64_t{1} << 50) / 10000;
-constexpr int k_loose_bits = 6;
+constexpr int k_loose_bits = 6, k_stir_bits = 2;
 
 // The leak of a normal's centre, at most: a tenth of its impulse, and half of the row's own weight.
 constexpr std::int64_t k_leak_part = 10;
@@ -301,7 +302,7 @@ void loosen(const IslandView& island) {
       most = std::max(
           most, width(-(problem.moved[i] + problem.bias[i])) - width(problem.least_change[i]));
   }
-  island.state.loose = std::max(most - k_loose_bits, 0);
+  island.state.loose = std::max({most - k_loose_bits, k_stir_bits * island.state.stir, 0});
   LKS_ASSERT(island.state.loose < 63);
 }
 

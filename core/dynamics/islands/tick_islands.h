@@ -3,8 +3,11 @@
 // not depend on others (law 9, docs/explanation/locality.md).
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <lockstone/assert.h>
@@ -28,6 +31,16 @@ class SharedCount {
   std::atomic<std::uint32_t> count_;
 };
 
+/// How the bodies of an island move.
+struct IslandMotion {
+  /// By how much bodies may differ from the mean velocity, in powers of two.
+  static constexpr std::size_t k_levels = 6;
+
+  std::int32_t velocity[3]{};                     ///< the mean of its bodies, 1/16 m/s
+  bool is_fast = false;                           ///< a body is faster than 1/16 m/s along an axis
+  std::array<std::uint32_t, k_levels> stirred{};  ///< bodies of level n + 1 or above
+};
+
 /// Counts of one island, and the solver's decisions by them.
 struct IslandTally {
   /// With more overloaded contacts an island starts warm: it would settle for long otherwise.
@@ -37,6 +50,9 @@ struct IslandTally {
   /// With fewer bodies it is no loose pile, with joints or without: few ones converge at little
   /// cost.
   static constexpr std::uint32_t k_least_jointed_loose = 8, k_least_loose = 24;
+
+  /// Masses of two that touch are alike up to 64 : 1, Q30.
+  static constexpr std::int32_t k_least_alike = (1 << 30) / 64;
 
   bool iterates_only = false;     ///< nets, locked axes or rolling resistance: no direct steps
   bool is_pinched = false;        ///< between a moving kinematic body and another immovable one
@@ -54,18 +70,17 @@ struct IslandTally {
   std::uint32_t joints = 0;
   std::int32_t least_share = 1 << 30;  ///< of the masses of two that touch or are jointed, Q30
   std::uint32_t loose = 0;             ///< bodies whose pile stays loose, unstirred
-  std::uint32_t stirred = 0;           ///< bodies much faster or slower than the island as a whole
-  std::int32_t velocity[3]{};          ///< the mean of its bodies, 1/16 m/s
-  std::uint32_t fresh = 0;             ///< contacts of this tick, between two dynamic bodies
-  std::uint32_t bearing = 0;           ///< contacts whose mean impulse is several times a weight
-  SharedCount moved{};                 ///< bodies whose poses have changed in the tick
-  SharedCount strayed{};               ///< bodies beyond k_wide_range of their recycling poses
-  SharedCount overloaded{};  ///< contacts at rest under several times a body's weight; from
-                             ///< k_most_overloaded + 1 on it may be any greater number
+  IslandMotion motion{};
+  std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
+  std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
+  SharedCount moved{};        ///< bodies whose poses have changed in the tick
+  SharedCount strayed{};      ///< bodies beyond k_wide_range of their recycling poses
+  SharedCount overloaded{};   ///< contacts at rest under several times a body's weight; from
+                              ///< k_most_overloaded + 1 on it may be any greater number
 
   /// Enough bodies: with joints that only limit how they lie to each other, or of like masses.
   [[nodiscard]] bool may_be_loose() const {
-    if (joints == 0) return bodies >= k_least_loose && least_share >= (1 << 30) / 64;
+    if (joints == 0) return bodies >= k_least_loose && least_share >= k_least_alike;
     return bodies >= k_least_jointed_loose && !is_carried && least_share >= (1 << 30) / 32;
   }
   [[nodiscard]] bool is_stack() const { return !is_converged && bearing > k_most_bearing; }
@@ -120,7 +135,7 @@ class TickIslands {
   template <class Test>
   [[nodiscard]] bool any(Test test) const {
     for (const IslandTally& tally : tallies_)
-      if ((tally.*test)()) return true;
+      if (std::invoke(test, tally)) return true;
     return false;
   }
 

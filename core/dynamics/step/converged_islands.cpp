@@ -40,7 +40,7 @@ void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodie
   solver_.clear(joints.first_without_contacts());
   EffortPolicy::mark_iterated(scene, bodies, contacts, joints, islands);
   lists_.build(scene, bodies, contacts, islands);
-  EffortPolicy::mark_loose(scene, bodies, islands);
+  EffortPolicy::mark_stirred(scene, bodies, islands);
   for (std::uint32_t island = 1; island < islands.count(); ++island) {
     IslandTally& tally = islands.tally(island);
     if (!effort.may_converge(tally)) continue;
@@ -106,6 +106,7 @@ void ConvergedIslands::begin(const Tick& tick, const ContactRun& run, std::uint3
     tick.bodies.before()[body] = {};
   const IslandTally& tally = tick.islands.tally(tick.islands.all().of(view.bodies[0]));
   view.state.is_measured = !view.joints.empty() || tally.has_ball_impacts;
+  view.state.stir = view.joints.empty() ? EffortPolicy::stir_level(tally) : 0;
   solver_.begin(run, island, weight, step_.substeps);
 }
 

@@ -1,6 +1,7 @@
 #include "core/dynamics/step/islands/effort_policy.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 
 #include <lockstone/assert.h>
@@ -35,17 +36,39 @@ std::int32_t lesser_share(BlockFloat a, BlockFloat b) {
 // Below this share, 200,000 : 1, impulses would need more bits than there are beside speeds.
 constexpr std::int32_t k_least_share = (1 << 30) / 200'000;
 
-// A component of velocity, 1/16 m/s, within ±2^14 or so: that of 2^16 bodies fits a word.
+// A component of velocity, 1/16 m/s, within ±2^14 or so.
 std::int32_t coarse(Velocity v) {
   return static_cast<std::int32_t>(raw::round_shift(v.raw, Velocity::frac_bits - 4));
 }
 
-// Whether a body differs from the mean velocity of its island by more than 1/4 m/s along an axis.
-bool has_own_velocity(const BodyRecord& body, const IslandTally& island) {
-  constexpr std::int32_t k_fast = 4;
+// While such an island is stirred it is solved more coarsely, or iterated. With uneven masses
+// passes change little while they are far from the solution: a coarser tolerance would end them too
+// early.
+bool may_be_stirred(const IslandTally& island) {
+  if (!island.motion.is_fast) return false;
+  if (island.joints != 0) return island.may_be_loose();
+  return island.least_share >= IslandTally::k_least_alike;
+}
+
+// Until `mark_stirred` the mean velocity of an island is the sum of its bodies' velocities.
+void add_motion(const BodyRecord& body, IslandTally& island) {
+  island.loose += is_loose(body) ? 1U : 0U;
+  for (int i = 0; i < 3; ++i) {
+    const std::int32_t speed = coarse(body.velocity[i]);
+    std::int32_t& sum = island.motion.velocity[i];
+    sum = raw::saturate<std::int32_t>(std::int64_t{sum} + speed);
+    island.motion.is_fast = island.motion.is_fast || std::abs(speed) > 1;
+  }
+}
+
+// The greatest n for which a body differs from the mean velocity of its island by more than
+// 2^n/32 m/s along an axis, up to IslandMotion::k_levels; else 0.
+std::size_t stir_level_of(const BodyRecord& body, const IslandTally& island) {
+  std::int32_t most = 1;
   for (int i = 0; i < 3; ++i)
-    if (std::abs(coarse(body.velocity[i]) - island.velocity[i]) > k_fast) return true;
-  return false;
+    most = std::max(most, std::abs(coarse(body.velocity[i]) - island.motion.velocity[i]));
+  const auto beyond = static_cast<std::uint32_t>(most - 1);
+  return std::min(static_cast<std::size_t>(std::bit_width(beyond)), IslandMotion::k_levels);
 }
 
 // Calls `work(island, body)` for each dynamic body, whose island is not 0.
@@ -103,6 +126,7 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
   }
   for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
     if ((body.locks & k_lock_moving) != 0) island.iterates_only = true;
+    add_motion(body, island);
   });
   const auto mass = [&](BodyRef body) {
     return body.is_standing()
@@ -120,31 +144,36 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
   });
 }
 
-void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bodies,
-                              IslandBuilder& islands) {
-  if (!islands.all().any(&IslandTally::may_be_loose)) return;
-  for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
-    if (!island.may_be_loose()) return;
-    for (int i = 0; i < 3; ++i)
-      island.velocity[i] += coarse(body.velocity[i]);
-    island.loose += is_loose(body) ? 1U : 0U;
-  });
+void EffortPolicy::mark_stirred(const ContactScene& scene, const SolverBodies& bodies,
+                                IslandBuilder& islands) {
   for (std::uint32_t index = 1; index < islands.count(); ++index) {
     IslandTally& island = islands.tally(index);
-    if (!island.may_be_loose()) continue;
     LKS_ASSERT(island.bodies > 0);
-    for (std::int32_t& component : island.velocity)
+    for (std::int32_t& component : island.motion.velocity)
       component /= static_cast<std::int32_t>(island.bodies);
   }
-  for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
-    if (island.may_be_loose() && has_own_velocity(body, island)) ++island.stirred;
-  });
+  if (islands.all().any(may_be_stirred)) {
+    for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
+      if (!may_be_stirred(island)) return;
+      const std::size_t level = stir_level_of(body, island);
+      for (std::size_t i = 0; i < level; ++i)
+        ++island.motion.stirred[i];
+    });
+  }
   for (std::uint32_t index = 1; index < islands.count(); ++index)
     islands.tally(index).is_loose = is_loose_pile(islands.tally(index));
 }
 
+int EffortPolicy::stir_level(const IslandTally& island) {
+  std::size_t level = 0;
+  while (level < IslandMotion::k_levels && island.motion.stirred[level] > island.bodies / 4)
+    ++level;
+  return static_cast<int>(level);
+}
+
 bool EffortPolicy::is_stirred(const IslandTally& island) {
-  return island.stirred > island.bodies / 4;
+  constexpr int k_loosening = 3;  // above 1/4 m/s
+  return stir_level(island) >= k_loosening;
 }
 
 bool EffortPolicy::is_loose_pile(const IslandTally& island) {

@@ -29,7 +29,7 @@ class EffortPolicy {
   [[nodiscard]] std::uint32_t most_island_contacts() const { return most_island_contacts_; }
 
   /// Marks islands that iterations alone can solve: those with coloured ball joints, locked axes,
-  /// rolling resistance or masses of two bodies that are too uneven.
+  /// rolling resistance or masses of two bodies that are too uneven. Adds up how bodies move.
   static void mark_iterated(const ContactScene& scene, const SolverBodies& bodies,
                             const ContactList& contacts, const TickJoints& joints,
                             IslandBuilder& islands);
@@ -41,9 +41,15 @@ class EffortPolicy {
   /// and stay loose until they sleep.
   [[nodiscard]] static bool is_loose_pile(const IslandTally& island);
 
-  /// Marks loose piles, once the counts of islands are known.
-  static void mark_loose(const ContactScene& scene, const SolverBodies& bodies,
-                         IslandBuilder& islands);
+  /// Counts how many bodies of an island are stirred, and marks loose piles, once the counts of
+  /// islands are known.
+  static void mark_stirred(const ContactScene& scene, const SolverBodies& bodies,
+                           IslandBuilder& islands);
+
+  /// The greatest n for which more than a quarter of the bodies differ from their mean velocity by
+  /// more than 2^n/32 m/s along an axis, up to IslandMotion::k_levels; 0 where there is none,
+  /// and of an island that is not to be solved more coarsely when it is stirred.
+  [[nodiscard]] static int stir_level(const IslandTally& island);
 
   /// The `loose_time` of a body of an island once it was solved: four seconds if it was stirred, in
   /// ticks or, where these are shorter, in sixtieths of a second (rounded to whole ticks); else it
