@@ -259,6 +259,38 @@ TEST_F(Sweepers, AFastKinematicWallTakesAlongBodiesThatItHits) {
   }
 }
 
+// The whole chain goes along with the ball that is hit, farther than a pile at rest may be from its
+// recycling poses.
+TEST_F(Sweepers, AChainThatAFastWallTakesAlongCanBeSaved) {
+  for (int run = 0; run < test::share_of(100); ++run) {
+    World world = make_world();
+    BodyDef wall;
+    wall.motion = MotionType::kinematic;
+    wall.shape = Shape::box(0.01_m, 2_m, 2_m);
+    wall.position.x.raw = between(-(std::int64_t{2} << 32), -(std::int64_t{1} << 31));
+    wall.velocity.x = speed(20, 200);
+    (void)test::add(world, wall);
+    BodyDef ball;
+    ball.motion = MotionType::dynamic;
+    ball.shape = Shape::sphere(0.1_m);
+    BodyHandle last = test::add(world, ball);
+    for (int i = 1; i < 10; ++i) {
+      ball.position.x += 0.3_m;
+      const BodyHandle next = test::add(world, ball);
+      JointDef joint = JointDef::of(JointKind::ball, last, next);
+      joint.frame_a.position.x = 0.15_m;
+      joint.frame_b.position.x = -0.15_m;
+      (void)world.create_joint(joint).value();
+      last = next;
+    }
+    for (int tick = 0; tick < 20; ++tick) {
+      (void)world.step();
+      ASSERT_FALSE(world.find_fault())
+          << world.find_fault().what << ", run " << run << " tick " << tick;
+    }
+  }
+}
+
 // Where the body is as the paddle sees it.
 struct Side {
   double along = 0, ahead = 0;
