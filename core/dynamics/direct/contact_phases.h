@@ -24,7 +24,7 @@ void return_leaks(const IslandView& island);
 void set_biases(const ContactRun& run, const IslandView& island, bool pushes_out);
 
 /// An impact need not be solved as finely as rest: nothing is solved below a part of the fastest
-/// approach with which the substep began.
+/// approach with which the substep began, nor below a speed that grows with the island's stir.
 void loosen(const IslandView& island);
 
 /// After a phase: adds its impulses to the blocks, and their changes of motion to the bodies.

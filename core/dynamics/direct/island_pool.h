@@ -18,7 +18,7 @@ struct IslandState {
   BlockFloat unit{};          ///< 1/m₀
   int bits = 0;               ///< fraction bits of the phase's units
   int loose = 0;              ///< the phase's tolerance is 2^this times the least
-  int stir = 0;               ///< EffortPolicy::stir_level
+  int stir = 0;               ///< EffortPolicy::stir_level; 0 with joints
   bool is_first = true;       ///< substep of the tick
   bool is_measured = false;   ///< speeds of contacts' rows are measured before each phase, since
                               ///< joints or impacts change velocities as well

@@ -33,6 +33,13 @@ AssetPtr octahedron() {
   return Hull::build(points).hull;
 }
 
+BodyDef kinematic_body(const Shape& shape) {
+  BodyDef def;
+  def.motion = MotionType::kinematic;
+  def.shape = shape;
+  return def;
+}
+
 AssetPtr dumb_bell() {
   std::array<CompoundChild, 3> children;
   children[0].shape = children[1].shape = Shape::sphere(0.06_m);
@@ -232,9 +239,7 @@ TEST_F(Sweepers, ATriggerDoesNotSeeABodyThatIsStoppedBeforeIt) {
 TEST_F(Sweepers, AFastKinematicWallTakesAlongBodiesThatItHits) {
   for (int run = 0; run < test::share_of(600); ++run) {
     World world = make_world();
-    BodyDef wall;
-    wall.motion = MotionType::kinematic;
-    wall.shape = Shape::box(length(between(2'000, 100'000)), 2_m, 2_m);
+    BodyDef wall = kinematic_body(Shape::box(length(between(2'000, 100'000)), 2_m, 2_m));
     wall.position.x.raw = between(-(std::int64_t{8} << 32), -(std::int64_t{3} << 32));
     wall.velocity.x = speed(10, 200);
     const BodyHandle paddle = test::add(world, wall);
@@ -264,15 +269,11 @@ TEST_F(Sweepers, AFastKinematicWallTakesAlongBodiesThatItHits) {
 TEST_F(Sweepers, AChainThatAFastWallTakesAlongCanBeSaved) {
   for (int run = 0; run < test::share_of(100); ++run) {
     World world = make_world();
-    BodyDef wall;
-    wall.motion = MotionType::kinematic;
-    wall.shape = Shape::box(0.01_m, 2_m, 2_m);
+    BodyDef wall = kinematic_body(Shape::box(0.01_m, 2_m, 2_m));
     wall.position.x.raw = between(-(std::int64_t{2} << 32), -(std::int64_t{1} << 31));
     wall.velocity.x = speed(20, 200);
     (void)test::add(world, wall);
-    BodyDef ball;
-    ball.motion = MotionType::dynamic;
-    ball.shape = Shape::sphere(0.1_m);
+    BodyDef ball = test::dynamic_body(Shape::sphere(0.1_m), {}, {}, {});
     BodyHandle last = test::add(world, ball);
     for (int i = 1; i < 10; ++i) {
       ball.position.x += 0.3_m;
@@ -319,9 +320,7 @@ bool is_through(const Side& before, const Side& now) {
 TEST_F(Sweepers, NothingPassesAThinPaddleThatTurns) {
   for (int run = 0; run < test::share_of(600); ++run) {
     World world = make_world();
-    BodyDef def;
-    def.motion = MotionType::kinematic;
-    def.shape = Shape::box(2_m, 0.3_m, 0.0025_m);
+    BodyDef def = kinematic_body(Shape::box(2_m, 0.3_m, 0.0025_m));
     def.angular_velocity.y.raw = speed(5, 40).raw;
     const BodyHandle paddle = test::add(world, def);
     BodyDef body_def;

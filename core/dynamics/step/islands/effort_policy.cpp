@@ -41,9 +41,9 @@ std::int32_t coarse(Velocity v) {
   return static_cast<std::int32_t>(raw::round_shift(v.raw, Velocity::frac_bits - 4));
 }
 
-// While such an island is stirred it is solved more coarsely, or iterated. With uneven masses
+// Whether an island that is stirred may be solved more coarsely, or iterated. With uneven masses
 // passes change little while they are far from the solution: a coarser tolerance would end them too
-// early.
+// early. Where no body is fast, none is stirred.
 bool may_be_stirred(const IslandTally& island) {
   if (!island.motion.is_fast) return false;
   if (island.joints != 0) return island.may_be_loose();
