@@ -22,7 +22,8 @@ struct Scene {
   std::vector<BlockWord> bodies, sums;
   std::vector<BodyBlock> matrix;
   std::uint64_t bits = 0;
-  PhaseResult result;
+  PassResult result;
+  Proposal proposal;
   bool fits = true;
 
   friend bool operator==(const Scene&, const Scene&) = default;
@@ -96,10 +97,10 @@ Step right_sides_step(int drop) {
           }};
 }
 
-Step propose_step(int drop) {
-  return {"propose", [drop](const ProximalKernels& kernels, Scene& scene) {
-            scene.result = kernels.propose(scene.blocks.data(), scene.blocks.size(), drop,
-                                           scene.bodies.data());
+Step propose_step(int drop, bool follows) {
+  return {"propose", [drop, follows](const ProximalKernels& kernels, Scene& scene) {
+            scene.proposal = kernels.propose(scene.blocks.data(), scene.blocks.size(), drop,
+                                             follows, scene.bodies.data());
           }};
 }
 
@@ -126,7 +127,8 @@ std::string check_phase(const Scene& start, Random& random) {
                         pass_step(),
                         residuals_step(),
                         right_sides_step(drop),
-                        propose_step(drop),
+                        propose_step(drop, true),
+                        propose_step(drop, false),
                         changes_step(),
                         update_step(static_cast<int>(random.between(-16, 62)))};
   std::string report;

@@ -36,7 +36,7 @@ struct Island {
     for (std::size_t i = 0; i + 1 < bodies.size(); ++i)
       maker.fill_body(bodies[i]);
   }
-  PhaseResult pass() { return k_kernels.pass(blocks.data(), blocks.size(), bodies.data()); }
+  PassResult pass() { return k_kernels.pass(blocks.data(), blocks.size(), bodies.data()); }
   std::uint64_t find_residuals() {
     return k_kernels.find_residuals(blocks.data(), blocks.size(), bodies.data());
   }
@@ -258,7 +258,7 @@ void soften(Random& random, bool with_locks, std::int64_t tolerance, ProximalBlo
 
 // Passes until no row changes.
 void run_passes(Island& island) {
-  PhaseResult last;
+  PassResult last;
   for (int pass = 0; pass < 400 && !last.done; ++pass)
     last = island.pass();
   ASSERT_TRUE(last.fits);
@@ -418,8 +418,8 @@ TEST(ProximalKernels, DirectStepsSolveTheEquationsOfTheActiveRows) {
     for (std::size_t i = 0; i < system.size; ++i)
       sums[i / k_body_words][i % k_body_words] = std::llround(system.x[i]);
     sums.back() = {};
-    const PhaseResult result = k_kernels.propose(blocks, count, drop, sums.data());
-    ASSERT_TRUE(result.fits && result.done) << round;
+    const Proposal proposal = k_kernels.propose(blocks, count, drop, true, sums.data());
+    ASSERT_TRUE(proposal.fits && proposal.is_solved) << round;
     ASSERT_TRUE(k_kernels.add_changes(blocks, count, island.bodies.data()));
     island.bodies.back() = {};
     for (ProximalBlock& block : island.blocks)
@@ -431,34 +431,113 @@ TEST(ProximalKernels, DirectStepsSolveTheEquationsOfTheActiveRows) {
   }
 }
 
-// Rows that want to pull, that are about to close, or whose friction would slide.
-TEST(ProximalKernels, DirectStepsAreNoSolutionWhereAnInequalityFails) {
+// A block of two active normal rows with impulses of 100, and γ = 1.
+ProximalBlock make_two_normals() {
   ProximalBlock block;
   block.points = block.rows = 2;
   block.b = 1;
   for (std::size_t r = 0; r < 2; ++r) {
     block.give[r] = k_whole_row;
+    block.own_part[r] = k_whole_row / 2;
     block.weight[r] = std::int64_t{1} << (30 - k_weight_point);
     block.normal[r] = block.active[r] = -1;
     block.tolerance[r] = 4;
-    block.impulse[r] = 100;
+    block.impulse[r] = block.next[r] = 100;
   }
+  return block;
+}
+
+// Proposes with residuals of these many units at the solution.
+Proposal propose(ProximalBlock& block, const std::vector<std::int64_t>& residuals,
+                 bool follows = true) {
   const BlockWord bodies[2]{};
-  const auto propose = [&](std::int64_t first, std::int64_t second) {
-    block.residual = {first * k_whole_row, second * k_whole_row};
-    return k_kernels.propose(&block, 1, 8, bodies);
-  };
-  EXPECT_EQ(propose(60, -60), (PhaseResult{true, true}));
+  for (std::size_t r = 0; r < residuals.size(); ++r)
+    block.residual[r] = residuals[r] * k_whole_row;
+  return k_kernels.propose(&block, 1, 8, follows, bodies);
+}
+
+TEST(ProximalKernels, AnAllowedSolutionIsProposed) {
+  ProximalBlock block = make_two_normals();
+  EXPECT_EQ(propose(block, {60, -60}), (Proposal{true, true, 0, 0}));
   EXPECT_EQ(block.next[0], 40);
   EXPECT_EQ(block.next[1], 160);
-  EXPECT_EQ(propose(160, 0), (PhaseResult{false, true}));
+}
+
+TEST(ProximalKernels, ARowThatWouldPullBecomesIdle) {
+  ProximalBlock block = make_two_normals();
+  EXPECT_EQ(propose(block, {160, 0}), (Proposal{false, true, 1, std::uint64_t{99} << 30}));
   EXPECT_EQ(block.next[0], 0);
-  block.active[1] = block.impulse[1] = 0;
-  EXPECT_EQ(propose(60, 60), (PhaseResult{true, true}));
+  EXPECT_EQ(block.next_active[0], 0);
+  EXPECT_EQ(block.next_active[1], -1);
+}
+
+TEST(ProximalKernels, ARowThatClosesBecomesActive) {
+  ProximalBlock block = make_two_normals();
+  block.active[1] = block.impulse[1] = block.next[1] = 0;
+  EXPECT_EQ(propose(block, {60, 60}), (Proposal{true, true, 0, 0}));
   EXPECT_EQ(block.next[1], 0);
-  EXPECT_EQ(propose(60, -60), (PhaseResult{false, true}));
-  block.active[1] = -1;
-  EXPECT_EQ(propose(0, -(std::int64_t{1} << 32)).fits, false);
+  EXPECT_EQ(propose(block, {60, -60}), (Proposal{false, true, 1, (std::uint64_t{60} << 30) - 1}));
+  EXPECT_EQ(block.next_active[1], -1);
+}
+
+TEST(ProximalKernels, AProposalThatDoesNotFitSaysSo) {
+  ProximalBlock block = make_two_normals();
+  EXPECT_FALSE(propose(block, {0, -(std::int64_t{1} << 32)}).fits);
+}
+
+// A normal row with an impulse of 100, and two rows of friction with a limit of half of it.
+ProximalBlock make_friction(bool sticks) {
+  ProximalBlock block = make_two_normals();
+  block.points = 1;
+  block.rows = 3;
+  block.limits[0] = 1 << (k_friction_point - 1);
+  for (std::size_t r = 1; r < 3; ++r) {
+    block.give[r] = k_whole_row;
+    block.own_part[r] = k_whole_row / 2;
+    block.weight[r] = std::int64_t{1} << (30 - k_weight_point);
+    block.normal[r] = block.impulse[r] = block.next[r] = 0;
+    block.active[r] = sticks ? -1 : 0;
+    block.tolerance[r] = 4;
+  }
+  return block;
+}
+
+TEST(ProximalKernels, FrictionBeyondItsLimitBecomesIdleAndHasItsLimit) {
+  ProximalBlock block = make_friction(true);
+  EXPECT_EQ(propose(block, {0, -60, 80}), (Proposal{false, true, 1, std::uint64_t{30 | 39} << 30}));
+  EXPECT_EQ(block.next[1], 30);
+  EXPECT_EQ(block.next[2], -40);
+  EXPECT_EQ(block.next_active[1], 0);
+}
+
+TEST(ProximalKernels, FrictionWithinItsLimitBecomesActive) {
+  ProximalBlock block = make_friction(false);
+  EXPECT_EQ(propose(block, {0, -60, 0}), (Proposal{false, true, 1, 0}));
+  EXPECT_EQ(block.next_active[1], -1);
+  EXPECT_EQ(block.next_active[2], -1);
+}
+
+// It slides in the direction of its impulse's opposite, and stays at its limit.
+TEST(ProximalKernels, FrictionThatSlidesStaysAtItsLimit) {
+  ProximalBlock block = make_friction(false);
+  block.impulse[1] = block.next[1] = 50;
+  EXPECT_EQ(propose(block, {0, -60, 0}), (Proposal{true, true, 0, 0}));
+  EXPECT_EQ(block.next[1], 50);
+  EXPECT_EQ(block.next_active[1], 0);
+}
+
+TEST(ProximalKernels, FrictionThatSlidesFollowsItsNormal) {
+  ProximalBlock block = make_friction(false);
+  block.impulse[1] = block.next[1] = 50;
+  EXPECT_EQ(propose(block, {-100, -200, 0}), (Proposal{false, true, 0, std::uint64_t{50} << 30}));
+  EXPECT_EQ(block.next[1], 100);
+}
+
+TEST(ProximalKernels, FrictionThatSlidesAndDoesNotFollowIsNoSolution) {
+  ProximalBlock block = make_friction(false);
+  block.impulse[1] = block.next[1] = 50;
+  EXPECT_EQ(propose(block, {-100, -60, 0}, false), (Proposal{false, true, 0, 0}));
+  EXPECT_EQ(block.next[1], 50);
 }
 
 }  // namespace

@@ -24,11 +24,16 @@ constexpr int k_coarser_bits = 5;
 // solution does not fit.
 constexpr int k_residual_bits = 27, k_more_drop = 4, k_most_drop = 42;
 
-// Passes before the first direct step, and after each; direct steps at most.
+// A direct step solves again where its first solve changes one row in this many contacts at most.
+constexpr std::size_t k_changing_part = 20;
+
+// Passes before the first direct step, and after each; direct steps at most; solves at most of each
+// of the first k_long_steps direct steps of an island that is not stirred, others have one.
 struct Effort {
-  int first_passes, passes, direct_steps;
+  int first_passes, passes, direct_steps, solves;
 };
-constexpr Effort k_of_contacts{2, 4, 6}, k_with_joints{4, 4, 1};
+constexpr Effort k_of_contacts{2, 4, 4, 6}, k_with_joints{4, 4, 1, 1};
+constexpr int k_long_steps = 2;
 
 // Friction that is as near to its limit as 2^-this may slide.
 constexpr int k_near_shift = 8;
@@ -50,6 +55,11 @@ std::int64_t dual_part(const ProductSum& slope, const ProductSum& curve) {
   const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(total)));
   const int drop = std::max(0, width - 31);
   return std::min((down >> drop) * k_whole / std::max<std::int64_t>(total >> drop, 1), k_whole);
+}
+
+// How many bits of residuals a direct step leaves out; `bits`: of all magnitudes that it reads.
+int drop_of(std::uint64_t bits) {
+  return static_cast<int>(std::bit_width(bits)) - k_residual_bits;
 }
 
 }  // namespace
@@ -131,7 +141,7 @@ void PhaseSolver::add_curve(std::int64_t scale, ProductSum& curve) const {
 
 bool PhaseSolver::pass() {
   const std::span<Problem> problems = island_.problems;
-  const lanes::PhaseResult result =
+  const lanes::PassResult result =
       lanes::proximal_kernels().pass(problems.data(), problems.size(), island_.velocities.data());
   fits_ = fits_ && result.fits;
   return result.done;
@@ -189,7 +199,7 @@ void PhaseSolver::find_residuals() {
   const std::span<Problem> problems = island_.problems;
   const std::uint64_t most = lanes::proximal_kernels().find_residuals(
       problems.data(), problems.size(), island_.velocities.data());
-  drop_ = std::max(1, static_cast<int>(std::bit_width(most)) - k_residual_bits);
+  drop_ = std::max(1, drop_of(most));
 }
 
 // Solves for velocities, with the right-hand side −Σ Jᵀ·r/γ of the active rows, times 2^-14.
@@ -267,25 +277,46 @@ void PhaseSolver::go(std::int64_t part) {
   fits_ = clamp_all(velocities) && fits_;
 }
 
-// Goes towards the solution of the active rows' equations, as far as it is allowed and D falls: all
-// the way where it is the solution of the phase. Returns whether it goes anywhere.
-bool PhaseSolver::direct_step() {
-  if (!island_.state.is_factored) factor();
-  LKS_ASSERT(island_.state.is_factored);
+// Solves for the active rows, and again for those that the solution leaves active, as long as fewer
+// and fewer change. Returns how many solves this took; 0 where there are no impulses to go to.
+int PhaseSolver::propose(int most_solves) {
   find_residuals();
-  while (!solve_for_changes()) {
-    drop_ += k_more_drop;
-    if (drop_ > k_most_drop) return false;
-  }
   const std::span<Problem> problems = island_.problems;
-  const lanes::PhaseResult result = lanes::proximal_kernels().propose(
-      problems.data(), problems.size(), drop_, island_.changes.data());
-  is_solved_ = result.done;
-  fits_ = fits_ && result.fits;
+  std::size_t most_changed = 1 + problems.size() / k_changing_part;
+  for (int solves = 1;; ++solves) {
+    if (!island_.state.is_factored) factor();
+    while (!solve_for_changes()) {
+      drop_ += k_more_drop;
+      if (drop_ > k_most_drop) return 0;
+    }
+    // In jammed linkages friction that follows gave energy.
+    const bool follows = island_.joints.empty();
+    const lanes::Proposal proposal = lanes::proximal_kernels().propose(
+        problems.data(), problems.size(), drop_, follows, island_.changes.data());
+    is_solved_ = proposal.is_solved;
+    fits_ = fits_ && proposal.fits;
+    if (is_solved_ || !fits_ || solves >= most_solves || proposal.changed > most_changed)
+      return solves;
+    if (proposal.changed != 0)
+      for (Problem& problem : problems)
+        problem.active = problem.next_active;
+    island_.state.is_factored = proposal.changed == 0;
+    most_changed = proposal.changed / 2;
+    drop_ = std::max(drop_, drop_of(proposal.bits));
+    LKS_ASSERT(drop_ <= k_most_drop);
+  }
+}
+
+// Goes towards the solution of the phase, as far as it is known and D falls. Returns whether it
+// goes anywhere.
+bool PhaseSolver::direct_step(int most_solves) {
+  const int solves = propose(most_solves);
+  if (solves == 0) return false;
   if (is_solved_) {
     sum_changes();
     go(k_whole);
-    return true;
+    // The first of several solves read great residuals, and so the last one is rounded coarsely.
+    return solves == 1 || direct_step(1);
   }
   const Slope along = slope();
   if (along.rises()) return false;
@@ -340,16 +371,18 @@ void PhaseSolver::iterate() {
   // Resting bodies are solved by the factor at hand: passes alone would leave them creeping.
   mark_active();
   is_solved_ = false;
-  if (island_.state.is_factored || !island_.state.was_factored) (void)direct_step();
-  bool done = is_solved_;
   const Effort& effort = island_.joints.empty() ? k_of_contacts : k_with_joints;
+  const int long_solves = island_.state.stir == 0 ? effort.solves : 1;
+  if (island_.state.is_factored || !island_.state.was_factored) (void)direct_step(long_solves);
+  bool done = is_solved_;
   bool is_last = false;
   for (int step = 0; !done && fits_; ++step) {
     for (int i = 0; i < (step == 0 ? effort.first_passes : effort.passes) && !done; ++i)
       done = pass();
     if (is_last || done) break;
     mark_active();
-    is_last = !direct_step() || step + 1 == effort.direct_steps;
+    const int most_solves = step + 1 < k_long_steps ? long_solves : 1;
+    is_last = !direct_step(most_solves) || step + 1 == effort.direct_steps;
     done = is_solved_;
   }
 }

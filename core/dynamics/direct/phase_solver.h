@@ -4,15 +4,19 @@
 // A phase finds impulses λ and velocities v = v* + M⁻¹Jᵀλ such that J·v + b + γ(λ − c) = 0 for
 // every row that is neither separating nor sliding, with λ ≥ 0 along normals and friction within
 // its limit: the least of D(λ) = |M⁻¹Jᵀλ|²/2 + λ·(J·v* + b) + Σ γ(λ − c)²/2 over those λ. Passes of
-// projected Gauss-Seidel find which rows those are; direct steps solve for them by a factor of
-// 1 + JᵀJ/γ, and go towards its solution only as far as D falls. The compliance γ is small, and the
+// projected Gauss-Seidel find which rows those are, the active ones; direct steps solve for them by
+// a factor of 1 + JᵀJ/γ. Where the solution makes a row pull, close, stick or slide, other rows are
+// active, and the first two steps of a phase solve again, as long as fewer and fewer rows change.
+// A step goes towards the last solution only as far as D falls. The compliance γ is small, and the
 // centre c, the last substep's impulse less a bounded leak, carries the load: the solution is that
 // of rigid contacts but for a damping of the order of γ.
 //
 // Sources: J. Carpentier, R. Budhiraja, N. Mansard, "Proximal and sparse resolution of constrained
-// dynamic equations", 2021 (the proximal problem); docs/notes/solver-choice.md (the leak, and the
-// comparison of solvers). Kinetic energy after the warm start, and after a phase that pushes no
-// overlap out, is at most that of the free motion, since impulses are scaled to the least of it.
+// dynamic equations", 2021 (the proximal problem); M. Hintermüller, K. Ito, K. Kunisch, "The
+// primal-dual active set strategy as a semismooth Newton method", 2002 (solving again);
+// docs/notes/solver-choice.md (the leak, and the comparison of solvers). Kinetic energy after the
+// warm start, and after a phase that pushes no overlap out, is at most that of the free motion,
+// since impulses are scaled to the least of it.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +61,8 @@ class PhaseSolver {
   [[nodiscard]] bool pass();
   void mark_active();
   void factor();
-  [[nodiscard]] bool direct_step();
+  [[nodiscard]] bool direct_step(int most_solves);
+  [[nodiscard]] int propose(int most_solves);
   void find_residuals();
   [[nodiscard]] bool solve_for_changes();
   void sum_changes();

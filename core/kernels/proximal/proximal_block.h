@@ -42,13 +42,14 @@ struct alignas(64) ProximalBlock {
   BlockWord normal{};                 // all bits in lanes of normal rows
   BlockWord active{};                 // all bits in lanes that the matrix has
 
-  BlockWord speed{};      // of the phase: with the bias, as it began
-  BlockWord impulse{};    // of the phase
-  BlockWord start{};      // impulse as the phase began
-  BlockWord centre{};     // of the phase: the impulse that the compliance pulls towards
-  BlockWord tolerance{};  // of the phase: a lesser change is none
-  BlockWord residual{};   // as of the direct step at hand, k_residual_point bits more
-  BlockWord next{};       // impulse that the direct step proposes
+  BlockWord speed{};        // of the phase: with the bias, as it began
+  BlockWord impulse{};      // of the phase
+  BlockWord start{};        // impulse as the phase began
+  BlockWord centre{};       // of the phase: the impulse that the compliance pulls towards
+  BlockWord tolerance{};    // of the phase: a lesser change is none
+  BlockWord residual{};     // as the direct step at hand began, k_residual_point bits more
+  BlockWord next{};         // impulse that the direct step proposes
+  BlockWord next_active{};  // all bits in lanes that are active at these impulses
 
   BlockWord warm{};          // kept: impulse as the tick before ended; 0 after the first phase
   BlockWord held{};          // kept: impulse
@@ -94,12 +95,22 @@ struct FactorColumn {
   std::array<std::int32_t, k_body_words> shifts{};
 };
 
-/// The result of a pass or a direct step.
-struct PhaseResult {
-  bool done = false;  // a pass: no change as great as the tolerance; a step: it is the solution
+/// The result of a pass.
+struct PassResult {
+  bool done = false;  // no change as great as the tolerance
   bool fits = true;   // nothing had to be clamped
 
-  friend bool operator==(const PhaseResult&, const PhaseResult&) = default;
+  friend bool operator==(const PassResult&, const PassResult&) = default;
+};
+
+/// The result of one solve of a direct step.
+struct Proposal {
+  bool is_solved = false;     // the proposed impulses are the solution of the phase
+  bool fits = true;           // nothing had to be clamped
+  std::uint32_t changed = 0;  // normal rows, and frictions of contacts, that became active or idle
+  std::uint64_t bits = 0;     // of all magnitudes that another solve reads besides
+
+  friend bool operator==(const Proposal&, const Proposal&) = default;
 };
 
 /// Where the blocks of a contact's bodies are in the matrix; null for bodies that nothing moves.
@@ -117,16 +128,22 @@ struct ProximalKernels {
   /// 2^loose of its least.
   void (*begin_phase)(ProximalBlock* blocks, std::size_t count, int down, int loose);
   /// One pass of projected Gauss-Seidel; bodies are the changes of velocity in the phase.
-  PhaseResult (*pass)(ProximalBlock* blocks, std::size_t count, BlockWord* bodies);
-  /// Residuals of all rows. Returns the bits of all magnitudes that a direct step reads.
+  PassResult (*pass)(ProximalBlock* blocks, std::size_t count, BlockWord* bodies);
+  /// Residuals of all rows; the impulses are the proposed ones. Returns the bits of all magnitudes
+  /// that a direct step reads.
   std::uint64_t (*find_residuals)(ProximalBlock* blocks, std::size_t count,
                                   const BlockWord* bodies);
-  /// Adds −Σ Jᵀ·r·weight of the active rows, residuals without their last `drop` bits.
+  /// Adds Jᵀ·x: −r·weight of the active rows, residuals without their last `drop` bits, and of the
+  /// idle ones their next changes of impulse, next − impulse, in the same unit; |x| ≤ 2^30.
   void (*add_right_sides)(const ProximalBlock* blocks, std::size_t count, int drop,
                           BlockWord* sums);
-  /// Impulses at the solution of the active rows, as far as they are allowed.
-  PhaseResult (*propose)(ProximalBlock* blocks, std::size_t count, int drop,
-                         const BlockWord* changes);
+  /// Sets the next impulses to those at the solution, as far as they are allowed, and which rows
+  /// are active next. A row that would pull becomes idle, without impulse, and one that closes
+  /// becomes active. Friction of a contact becomes idle beyond its limit. While it is idle it
+  /// slides: if it `follows`, it goes a step of a pass, to its limit at most, and becomes active
+  /// within it; otherwise nothing is solved.
+  Proposal (*propose)(ProximalBlock* blocks, std::size_t count, int drop, bool follows,
+                      const BlockWord* changes);
   /// Adds Jᵀ·(next − impulse). Returns whether these fit.
   bool (*add_changes)(const ProximalBlock* blocks, std::size_t count, BlockWord* sums);
   /// Adds J·u · 2^-shift to kept speeds; −16 ≤ shift ≤ 62.

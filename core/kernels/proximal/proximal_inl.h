@@ -123,7 +123,7 @@ struct RowPass {
   ProximalBlock& block;
   BlockWord residual{};  // in units of the phase
   BlockWord change{};    // of impulses, in this pass
-  PhaseResult result{true, true};
+  PassResult result{true, true};
 
   HWY_INLINE HWY_ATTR void begin(const BlockWord& a, const BlockWord& b) {
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes)
@@ -179,8 +179,8 @@ struct RowPass {
   }
 };
 
-HWY_ATTR PhaseResult pass(ProximalBlock* blocks, std::size_t count, BlockWord* bodies) {
-  PhaseResult result{true, true};
+HWY_ATTR PassResult pass(ProximalBlock* blocks, std::size_t count, BlockWord* bodies) {
+  PassResult result{true, true};
   for (ProximalBlock* block = blocks; block != blocks + count; ++block) {
     RowPass rows{*block};
     rows.begin(bodies[block->a], bodies[block->b]);
@@ -202,6 +202,7 @@ HWY_ATTR std::uint64_t find_residuals(ProximalBlock* blocks, std::size_t count,
       const Lanes idle = bit_and_not(load(&block->active[lane]), load(&block->normal[lane]));
       most = bit_or(most, bit_and_not(idle, without_sign(residual)));
       store(residual, &block->residual[lane]);
+      store(load(&block->impulse[lane]), &block->next[lane]);
     }
   }
   return all_bits(most);
@@ -209,61 +210,103 @@ HWY_ATTR std::uint64_t find_residuals(ProximalBlock* blocks, std::size_t count,
 
 HWY_ATTR void add_right_sides(const ProximalBlock* blocks, std::size_t count, int drop,
                               BlockWord* sums) {
-  const Shift dropped(drop);
+  constexpr int k_finer = k_residual_point - k_weight_point;
+  const Shift dropped(drop), coarser(drop > k_finer ? drop - k_finer : 1);
+  const Lanes finer = broadcast(drop > k_finer ? 1 : std::int64_t{1} << (k_finer - drop));
   for (const ProximalBlock* block = blocks; block != blocks + count; ++block) {
     BlockWord x;
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+      const Lanes active = load(&block->active[lane]);
       const Lanes residual = dropped(load(&block->residual[lane]));
       const Lanes part = round_shift_low<30>(multiply(residual, load(&block->weight[lane])));
-      store(bit_and(subtract(broadcast(0), part), load(&block->active[lane])), &x[lane]);
+      const Lanes change = subtract(load(&block->next[lane]), load(&block->impulse[lane]));
+      const Lanes held = drop > k_finer ? coarser(change) : multiply(change, finer);
+      store(bit_or(bit_and(active, subtract(broadcast(0), part)), bit_and_not(active, held)),
+            &x[lane]);
     }
     add_transposed(*block, x, sums[block->a], sums[block->b]);
   }
 }
 
-/// A direct step's solution, read.
-struct Proposal {
+/// One solve of a direct step, read.
+struct ProposedStep {
   Shift dropped, scaled, units;
-  PhaseResult result{true, true};
+  Lanes off = broadcast(0), flips = broadcast(0), most = broadcast(0);
+  bool follows;
+  bool stays = true;  // friction that slides, within its tolerance
 
-  HWY_INLINE HWY_ATTR explicit Proposal(int drop)
+  HWY_INLINE HWY_ATTR ProposedStep(int drop, bool slides_follow)
       : dropped(drop),
         scaled(30 + k_residual_point - k_weight_point - drop),
-        units(drop < k_residual_point ? k_residual_point - drop : 1) {}
+        units(drop < k_residual_point ? k_residual_point - drop : 1),
+        follows(slides_follow) {}
 
   HWY_INLINE HWY_ATTR void propose(ProximalBlock& block, std::size_t lane, Lanes dots) {
     const Lanes zero = broadcast(0), active = load(&block.active[lane]);
     const Lanes normal = load(&block.normal[lane]), impulse = load(&block.impulse[lane]);
     const Lanes nothing = subtract(zero, load(&block.tolerance[lane]));
     const Lanes left = add(dropped(load(&block.residual[lane])), round_shift<30>(dots));
-    // Rows without impulse: normal ones may open, those of friction that have none may stay.
-    const Lanes idle = bit_and_not(active, normal);
-    const Lanes slides = bit_and_not(active, bit_and_not(normal, impulse));
-    const bool closes = any_less(bit_and(idle, units(left)), nothing);
+    const Lanes fitting = saturate(left), speed = units(left);
     // Active ones: λ − left / γ.
-    const Lanes fitting = saturate(left);
     const Lanes free = subtract(impulse, scaled(multiply(fitting, load(&block.weight[lane]))));
     const Lanes kept = within(free, k_most_unit);
-    const Lanes off = bit_or(subtract(left, fitting), subtract(free, kept));
-    const Lanes pulls = bit_and(active, bit_and(normal, free));
+    off = bit_or(off, bit_and(active, bit_or(subtract(left, fitting), subtract(free, kept))));
+    const Lanes pulls = select_less(kept, nothing, bit_and(active, normal), zero);
+    const Lanes closes = select_less(speed, nothing, bit_and_not(active, normal), zero);
     const Lanes pushed = select_less(bit_and(normal, kept), zero, zero, kept);
-    store(bit_or(bit_and(active, pushed), slides), &block.next[lane]);
-    result.fits = result.fits && all_bits(bit_and(active, off)) == 0;
-    result.done = result.done && !closes && !any_less(pulls, nothing) && all_bits(slides) == 0;
+    // Friction that slides: a step of a pass.
+    const Lanes friction = broadcast(block.has_friction() ? -1 : 0);
+    const Lanes slides = bit_and_not(bit_or(active, normal), friction);
+    const Lanes step = round_shift<30>(multiply(saturate(speed), load(&block.own_part[lane])));
+    const Lanes last = load(&block.next[lane]);
+    const Lanes slid = follows ? within(subtract(last, step), k_most_unit) : last;
+    store(bit_or(bit_and(active, pushed), bit_and(slides, slid)), &block.next[lane]);
+    store(bit_or(bit_and_not(pulls, active), closes), &block.next_active[lane]);
+    flips = add(flips, bit_and(bit_or(pulls, closes), broadcast(1)));
+    most = bit_or(most, bit_and(closes, without_sign(load(&block.residual[lane]))));
+  }
+
+  /// Limits a contact's friction, once its normal impulses are proposed; `before`: the impulses
+  /// proposed before these. Returns whether it begins to slide, or to stick.
+  HWY_INLINE HWY_ATTR bool limit_friction(ProximalBlock& block, const BlockWord& before) {
+    const std::int64_t over = shorten_friction(block, block.next);
+    bool pushes = false;
+    for (std::size_t i = 0; i < block.points; ++i)
+      pushes = pushes || block.next[i] > 0;
+    const bool stuck = block.active[block.points] != 0;
+    const bool sticks =
+        stuck ? over <= block.tolerance[block.points] : follows && pushes && over == 0;
+    for (std::size_t i = block.points; i < block.rows; ++i) {
+      const std::int64_t change = follows ? block.next[i] - before[i] : before[i];
+      const std::int64_t none = follows ? block.tolerance[i] : 0;
+      stays = stays && (stuck || (change <= none && -change <= none));
+      if (sticks && !stuck) block.next[i] = before[i];
+      block.next_active[i] = sticks ? -1 : 0;
+    }
+    return sticks != stuck;
   }
 };
 
-HWY_ATTR PhaseResult propose(ProximalBlock* blocks, std::size_t count, int drop,
-                             const BlockWord* changes) {
-  Proposal proposal(drop);
+HWY_ATTR Proposal propose(ProximalBlock* blocks, std::size_t count, int drop, bool follows,
+                          const BlockWord* changes) {
+  Proposal result;
+  ProposedStep step(drop, follows);
   for (ProximalBlock* block = blocks; block != blocks + count; ++block) {
+    const BlockWord before = block->next;
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes)
-      proposal.propose(*block, lane, row_dots(*block, lane, changes[block->a], changes[block->b]));
-    if (!block->has_friction()) continue;
-    if (shorten_friction(*block, block->next) > block->tolerance[block->points])
-      proposal.result.done = false;
+      step.propose(*block, lane, row_dots(*block, lane, changes[block->a], changes[block->b]));
+    if (block->has_friction() && step.limit_friction(*block, before)) ++result.changed;
+    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+      const Lanes change = subtract(load(&block->next[lane]), load(&block->impulse[lane]));
+      const Lanes far = shift_left<k_residual_point>(without_sign(change));
+      step.most = bit_or(step.most, bit_and_not(load(&block->next_active[lane]), far));
+    }
   }
-  return proposal.result;
+  result.changed += static_cast<std::uint32_t>(sum_of(step.flips));
+  result.is_solved = result.changed == 0 && step.stays;
+  result.fits = all_bits(step.off) == 0;
+  result.bits = all_bits(step.most);
+  return result;
 }
 
 HWY_ATTR bool add_changes(const ProximalBlock* blocks, std::size_t count, BlockWord* sums) {
