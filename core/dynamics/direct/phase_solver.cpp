@@ -297,10 +297,11 @@ int PhaseSolver::propose(int most_solves) {
     fits_ = fits_ && proposal.fits;
     if (is_solved_ || !fits_ || solves >= most_solves || proposal.changed > most_changed)
       return solves;
-    if (proposal.changed != 0)
+    if (proposal.changed != 0) {
       for (Problem& problem : problems)
         problem.active = problem.next_active;
-    island_.state.is_factored = proposal.changed == 0;
+      island_.state.is_factored = false;
+    }
     most_changed = proposal.changed / 2;
     drop_ = std::max(drop_, drop_of(proposal.bits));
     LKS_ASSERT(drop_ <= k_most_drop);
