@@ -152,8 +152,10 @@ TEST_P(BothBroadPhases, FindEveryPairOnceAndSortedWhateverHappens) {
       broad_phase.clear();
       std::fill(model.present.begin(), model.present.end(), false);
     }
-    for (std::uint32_t body = 0; body < k_count; ++body)
+    for (std::uint32_t body = 0; body < k_count; ++body) {
       change(model, broad_phase, body, moving_percent, random);
+      if (body % 7 == 0) broad_phase.settle(BroadPhase::Moment::command);
+    }
     ASSERT_EQ(pairs_of(broad_phase), model.pairs()) << "tick " << tick;
     ASSERT_FALSE(broad_phase.overflowed());
     const auto mask = static_cast<std::uint32_t>(random.between(0, 15));
@@ -247,6 +249,32 @@ TEST_P(BothBroadPhases, SearchOnlyForBodiesThatLeftTheirFatBox) {
   shift(50, 500);
   EXPECT_EQ(broad_phase.find_pairs().size(), 98U);
   EXPECT_EQ(broad_phase.effort().searched, 1U);
+}
+
+TEST(BroadPhase, IsNotSearchedBodyByBodyWhileAWorldIsMade) {
+  constexpr std::uint32_t k_count = 4000;
+  BroadPhase broad_phase(BroadPhaseKind::tree, k_count, 1000);
+  Bounds box;
+  box.upper = {BoundsCoordinate::from_integer(1), BoundsCoordinate::from_integer(1),
+               BoundsCoordinate::from_integer(1)};
+  std::uint64_t tests = 0;
+  for (std::uint32_t body = 0; body < k_count; ++body) {
+    Bounds shifted = box;
+    shifted.lower.x.raw += static_cast<std::int32_t>(body) * 3000;
+    shifted.upper.x.raw += static_cast<std::int32_t>(body) * 3000;
+    broad_phase.set(body, shifted, k_dynamic);
+    broad_phase.settle(BroadPhase::Moment::command);
+    std::uint32_t seen = 0;
+    broad_phase.traverse(
+        k_every_category,
+        [&](const Bounds& other) {
+          ++tests;
+          return overlap(shifted, other);
+        },
+        [&](std::uint32_t) { ++seen; });
+    EXPECT_EQ(seen, 1U);
+  }
+  EXPECT_LT(tests, std::uint64_t{100} * k_count);  // 2,000 a body without
 }
 
 TEST_P(BothBroadPhases, TakeBoxesAtTheEdgeOfTheirRange) {

@@ -205,9 +205,12 @@ bool BroadPhase::search(Emit&& emit) {
   return std::visit(run, search_);
 }
 
-void BroadPhase::settle() {
+void BroadPhase::settle(Moment moment) {
+  auto* trees = std::get_if<TreeSearch>(&search_);
+  if (trees == nullptr) return;
+  LKS_ASSERT(body_limit_ <= proxies_.size());
   const auto proxies = std::span<const Proxy>(proxies_).first(body_limit_);
-  if (auto* trees = std::get_if<TreeSearch>(&search_)) trees->refresh(proxies);
+  moment == Moment::tick ? trees->refresh(proxies) : trees->refresh_when_many(proxies);
 }
 
 // Returns whether the candidates are complete.

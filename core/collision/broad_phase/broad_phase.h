@@ -48,9 +48,11 @@ class BroadPhase {
   [[nodiscard]] bool has(std::uint32_t body) const { return proxies_[body].present; }
   [[nodiscard]] const Bounds& bounds(std::uint32_t body) const { return bounds_[body]; }
 
-  /// Prepares for queries; without it they are right, but slower after many changes. Does nothing
-  /// that `find_pairs` would not do.
-  void settle();
+  enum class Moment : std::uint8_t { tick, command };
+
+  /// Prepares for queries, at a command only after many changes; without it they are right, but
+  /// slower. Does nothing that `find_pairs` would not do.
+  void settle(Moment moment = Moment::tick);
 
   /// All pairs whose bounds overlap and for which `can_meet` holds, sorted. When they exceed the
   /// capacity, the first ones in that order, and `overflowed` is true. Valid until the next call.

@@ -1,6 +1,7 @@
 #include "core/collision/broad_phase/tree_search.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <lockstone/assert.h>
 
@@ -12,6 +13,10 @@ namespace {
 constexpr std::uint32_t k_rebuilt_part = 4;
 constexpr std::uint32_t k_least_rebuilt = 8;
 
+// More waiting bodies than this are not searched one by one: a world of n bodies is made in
+// n log n steps.
+constexpr std::size_t k_most_waiting = 32;
+
 }  // namespace
 
 void TreeSearch::clear() {
@@ -20,6 +25,7 @@ void TreeSearch::clear() {
     leaves_[i] = 0;
     inserted_[i] = 0;
   }
+  early_ = {};
   std::fill(places_.begin(), places_.end(), Place{});
   waiting_.clear();
 }
@@ -60,14 +66,30 @@ void TreeSearch::insert(std::uint32_t body, const Proxy& proxy) {
 }
 
 void TreeSearch::refresh(std::span<const Proxy> proxies) {
-  std::uint32_t coming[2] = {};
+  (void)put_waiting(proxies, std::exchange(early_, {}));
+}
+
+void TreeSearch::refresh_when_many(std::span<const Proxy> proxies) {
+  if (waiting_.size() <= k_most_waiting) return;
+  const Counts put = put_waiting(proxies, {});
+  for (std::size_t i = 0; i < put.size(); ++i)
+    early_[i] += put[i];
+}
+
+// Puts all waiting bodies into the trees, and returns how many into each. A tree is built again as
+// if its `early` ones had waited too.
+TreeSearch::Counts TreeSearch::put_waiting(std::span<const Proxy> proxies, const Counts& early) {
+  Counts coming{};
   for (const std::uint32_t body : waiting_) {
     if (places_[body].waits) ++coming[proxies[body].traits.is_dynamic ? 1 : 0];
   }
   bool rebuilt[2];
-  for (int i = 0; i < 2; ++i) {
-    const bool many = coming[i] > leaves_[i] / k_rebuilt_part || inserted_[i] > leaves_[i];
-    rebuilt[i] = coming[i] + inserted_[i] > k_least_rebuilt && many;
+  for (std::size_t i = 0; i < coming.size(); ++i) {
+    const std::uint32_t before = leaves_[i] - std::min(early[i], leaves_[i]);
+    const std::uint32_t fresh = coming[i] + early[i];
+    LKS_ASSERT(coming[i] <= waiting_.size());
+    const bool many = fresh > before / k_rebuilt_part || inserted_[i] > leaves_[i];
+    rebuilt[i] = fresh + inserted_[i] > k_least_rebuilt && many;
   }
   for (const std::uint32_t body : waiting_) {
     Place& place = places_[body];
@@ -85,6 +107,7 @@ void TreeSearch::refresh(std::span<const Proxy> proxies) {
   for (int i = 0; i < 2; ++i) {
     if (rebuilt[i]) rebuild(i == 1, proxies);
   }
+  return coming;
 }
 
 void TreeSearch::rebuild(bool dynamic, std::span<const Proxy> proxies) {

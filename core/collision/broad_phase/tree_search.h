@@ -1,6 +1,7 @@
 // The broad phase by trees: one for static and kinematic bodies and one for dynamic bodies.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,6 +32,10 @@ class TreeSearch {
   /// Puts the waiting bodies into the trees: one by one, or a tree as a whole when much of it
   /// changes.
   void refresh(std::span<const Proxy> proxies);
+
+  /// Between two refreshes: does the same when many bodies wait, which make a traversal slow. The
+  /// next refresh builds a tree again if it would have without this.
+  void refresh_when_many(std::span<const Proxy> proxies);
 
   /// Calls `emit(a, b)` once, in no promised order, for every two bodies of which one is touched
   /// and one moves, whose fat boxes overlap and whose layers may collide. Stops when it returns
@@ -77,6 +82,7 @@ class TreeSearch {
 
  private:
   static constexpr std::uint32_t k_null = BoundingVolumeTree::k_null;
+  using Counts = std::array<std::uint32_t, 2>;  // of bodies, by tree
 
   // Where a body's leaf is. That of a body that waits, if it has one, is out of date.
   struct Place {
@@ -88,11 +94,13 @@ class TreeSearch {
 
   void remove_leaf(Place& place);
   void insert(std::uint32_t body, const Proxy& proxy);
+  Counts put_waiting(std::span<const Proxy> proxies, const Counts& early);
   void rebuild(bool dynamic, std::span<const Proxy> proxies);
 
   BoundingVolumeTree trees_[2];  // of static and kinematic bodies; of dynamic bodies
   std::uint32_t leaves_[2] = {};
   std::uint32_t inserted_[2] = {};  // one by one, since all were put in at once
+  Counts early_{};                  // put in by `refresh_when_many` since the last refresh
   std::vector<Place> places_;       // by body
   std::vector<std::uint32_t> waiting_;
   std::vector<BoundingVolumeTree::Item> items_;

@@ -22,6 +22,7 @@ void Waking::stir_around(std::uint32_t body) {
   for (const std::uint32_t other : world_.joint_graph.neighbours(body))
     stir(other);
   if (!world_.broad_phase.has(body)) return;
+  world_.broad_phase.settle(BroadPhase::Moment::command);
   const Bounds here = world_.broad_phase.bounds(body);
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },
@@ -112,6 +113,7 @@ void Waking::disturb_around(std::uint32_t body) {
 
 void Waking::disturb_within(const Bounds& here, std::uint32_t body) {
   const bool may_wake = flags_.asleep_count() != 0;
+  world_.broad_phase.settle(BroadPhase::Moment::command);
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },
       [&](std::uint32_t other) {
