@@ -10,6 +10,7 @@
 
 #include "core/collision/broad_phase/pair.h"
 #include "core/dynamics/state/joint_record.h"
+#include "core/world/derived/joint_neighbours.h"
 
 namespace lockstone {
 
@@ -21,12 +22,14 @@ class JointGraph {
   /// Holds the joints that exist among `joints`, and no others. `exempt_pair(joint)`: as for `add`.
   template <class ExemptPair>
   void rebuild(std::span<const JointRecord> joints, ExemptPair&& exempt_pair) {
-    forget_lists();
+    forget_awake_list();
+    neighbours_.clear(links_);
     links_.clear();
     exempt_pairs_.clear();
     for (std::uint32_t i = 0; i < joints.size(); ++i) {
       if (!joints[i].exists()) continue;
       links_.push_back({i, joints[i].body_a, joints[i].body_b});
+      neighbours_.add(links_.back());
       if (const std::optional<Pair> pair = exempt_pair(joints[i])) exempt_pairs_.push_back(*pair);
     }
     std::ranges::sort(exempt_pairs_);
@@ -43,7 +46,7 @@ class JointGraph {
   void set_enabled(std::uint32_t body, bool enabled) {
     if ((is_disabled_[body] == 0) == enabled) return;
     is_disabled_[body] = enabled ? 0 : 1;
-    forget_lists();
+    forget_awake_list();
   }
 
   /// All joints, by index.
@@ -55,7 +58,9 @@ class JointGraph {
   [[nodiscard]] bool is_exempt(const Pair& pair) const;
 
   /// The bodies that joints connect to this one, in the order of the joints.
-  [[nodiscard]] std::span<const std::uint32_t> neighbours(std::uint32_t body);
+  [[nodiscard]] JointNeighbours::Range neighbours(std::uint32_t body) const {
+    return neighbours_.of(body, is_disabled_);
+  }
 
   /// The joints that work in the tick, by index, as of the last `list_awake`.
   [[nodiscard]] std::span<const JointLink> awake_links() const { return awake_links_; }
@@ -79,19 +84,13 @@ class JointGraph {
   [[nodiscard]] bool works(const JointLink& link) const {
     return (is_disabled_[link.body_a] | is_disabled_[link.body_b]) == 0;
   }
-  void forget_lists();
-  void rebuild_neighbours();
 
   std::vector<JointLink> links_;        // by joint
   std::vector<JointLink> awake_links_;  // by joint
   std::vector<Pair> exempt_pairs_;      // ascending
   bool is_awake_list_current_ = false;
   std::vector<std::uint8_t> is_disabled_;  // by body
-
-  // Rebuilt when they are asked for.
-  std::vector<std::uint32_t> begins_;      // by body: where its neighbours begin
-  std::vector<std::uint32_t> neighbours_;  // body by body
-  bool are_neighbours_current_ = false;
+  JointNeighbours neighbours_;
 };
 
 }  // namespace lockstone

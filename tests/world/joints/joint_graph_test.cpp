@@ -47,13 +47,22 @@ class JointGraphTest : public ::testing::Test {
   [[nodiscard]] std::vector<std::uint32_t> neighbours_by_list(std::uint32_t body) const {
     std::vector<std::uint32_t> found;
     for (const auto& [index, joint] : joints) {
+      if (disabled[joint.link.body_a] || disabled[joint.link.body_b]) continue;
       if (joint.link.body_a == body) found.push_back(joint.link.body_b);
       if (joint.link.body_b == body) found.push_back(joint.link.body_a);
     }
     return found;
   }
 
+  [[nodiscard]] std::vector<std::uint32_t> neighbours_of(std::uint32_t body) const {
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t other : graph.neighbours(body))
+      found.push_back(other);
+    return found;
+  }
+
   test::Random random;
+  bool disabled[k_bodies] = {};
   JointGraph graph{k_bodies, k_joints};
   std::map<std::uint32_t, Joint> joints;  // the reference
 };
@@ -76,9 +85,41 @@ TEST_F(JointGraphTest, NamesNeighboursInTheOrderOfJoints) {
   for (int change = 0; change < 300; ++change) {
     change_one();
     for (std::uint32_t body = 0; body < k_bodies; ++body) {
-      const auto neighbours = graph.neighbours(body);
-      ASSERT_EQ(std::vector(neighbours.begin(), neighbours.end()), neighbours_by_list(body));
+      ASSERT_EQ(neighbours_of(body), neighbours_by_list(body));
+      ASSERT_EQ(graph.neighbours(body).empty(), neighbours_by_list(body).empty());
+      ASSERT_EQ(graph.neighbours(body).has_one(), neighbours_by_list(body).size() == 1);
     }
+  }
+}
+
+TEST_F(JointGraphTest, NamesNoNeighboursByJointsOfDisabledBodies) {
+  for (int change = 0; change < 300; ++change) {
+    change_one();
+    const auto changed = static_cast<std::uint32_t>(random.between(0, k_bodies - 1));
+    disabled[changed] = !disabled[changed];
+    graph.set_enabled(changed, !disabled[changed]);
+    for (std::uint32_t body = 0; body < k_bodies; ++body)
+      ASSERT_EQ(neighbours_of(body), neighbours_by_list(body));
+  }
+}
+
+TEST_F(JointGraphTest, NamesTheSameNeighboursOnceItIsRebuilt) {
+  for (int change = 0; change < 100; ++change)
+    change_one();
+  std::vector<JointRecord> records(k_joints);
+  for (int round = 0; round < 3; ++round) {
+    change_one();
+    records.assign(k_joints, {});
+    for (const auto& [index, joint] : joints) {
+      records[index].kind = 1;
+      records[index].body_a = joint.link.body_a;
+      records[index].body_b = joint.link.body_b;
+    }
+    graph.rebuild(records, [&](const JointRecord& record) {
+      return joints[static_cast<std::uint32_t>(&record - records.data())].exempt;
+    });
+    for (std::uint32_t body = 0; body < k_bodies; ++body)
+      ASSERT_EQ(neighbours_of(body), neighbours_by_list(body));
   }
 }
 

@@ -47,7 +47,7 @@ void Pendulums::look_for(const JointLink& link) {
   const std::uint32_t body = is_first ? link.body_a : link.body_b;
   const BodyRecord& record = world_.bodies[body];
   if (!record.is_dynamic() || record.locks != 0 || !is_point(world_.joints[link.joint])) return;
-  if (world_.joint_graph.neighbours(body).size() != 1) return;
+  if (!world_.joint_graph.neighbours(body).has_one()) return;
   const Pendulum pendulum{link.joint, body, is_first};
   if (can_step_about_pivot(record, world_.cache.rotation(body), pivot_of(pendulum),
                            world_.header.gravity, world_.time_step))
