@@ -66,7 +66,7 @@ void ColouredBalls::clear(std::uint32_t rows) {
 void ColouredBalls::add(std::uint32_t link, const JointRecord& record, const End& a, const End& b) {
   LKS_ASSERT(a.pushed || b.pushed);
   graph_.add(a.row, a.pushed, b.row, b.pushed);
-  entries_.push_back({link, &record, a, b});
+  entries_.push_back({&record, link, a, b});
 }
 
 void ColouredBalls::lay_out() {

@@ -36,9 +36,9 @@ class ColouredBalls {
 
   /// One end of a joint; a body that is not pushed stands still, in a row of this joint alone.
   struct End {
-    std::uint32_t row = 0;
     const BodyRecord* record = nullptr;
     const Mat3* rotation = nullptr;
+    std::uint32_t row = 0;
     bool pushed = false;
   };
 
@@ -80,8 +80,8 @@ class ColouredBalls {
     std::size_t count = 0;
   };
   struct Entry {
-    std::uint32_t link;
     const JointRecord* record;
+    std::uint32_t link;
     End a, b;
   };
 
