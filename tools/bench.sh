@@ -3,7 +3,7 @@
 #
 # usage: tools/bench.sh [--quick] [--docs] [BENCHMARK…]
 #
-# Benchmarks: speed queries rows numerics skip front; on demand accuracy stability instructions.
+# Benchmarks: speed queries rows numerics skip front; on demand accuracy stability size instructions.
 #
 #   --quick      below ten minutes, installing and building included, on four cores: fewer scenes,
 #                ticks, questions and repeats
@@ -28,7 +28,7 @@ for argument in "$@"; do
     --quick) quick=true ;;
     --docs) results=docs/benchmarks ;;
     --help) usage; exit ;;
-    front | speed | queries | rows | numerics | skip | accuracy | stability | instructions) benchmarks+=("$argument") ;;
+    front | speed | queries | rows | numerics | skip | accuracy | stability | size | instructions) benchmarks+=("$argument") ;;
     *) usage >&2; exit 2 ;;
   esac
 done
@@ -76,6 +76,7 @@ arguments_of() {
       echo speed
       "$quick" || echo --detail
       ;;
+    size) printf '%s\n' size --force --cpu --page "$results/size.md" --chart "$results/size.svg" ;;
     instructions) printf '%s\n' speed --force --instructions "$results/instructions.csv" ;;
     *) echo "$1" ;;
   esac
@@ -85,6 +86,7 @@ arguments_of() {
     speed) printf '%s\n' --quick --threads 1 ;;
     accuracy) printf '%s\n' --tries 100 ;;
     stability) printf '%s\n' --seconds 5 ;;
+    size) printf '%s\n' --most 10000 ;;
     rows | numerics) printf '%s\n' --repeats 7 ;;
   esac
 }

@@ -138,6 +138,33 @@ class Speed(Case):
         self.expect(CORRUPT, "speed", "--compare", __file__)
 
 
+class Size(Case):
+    def test_measures_each_kind_of_world(self):
+        sizes = self.json_of("size", "--most", 100)["sizes"]
+        self.assertEqual([row["kind"] for row in sizes], ["asleep", "stacks", "pile", "ragdolls"])
+        for row in sizes:
+            self.assertEqual((row["bodies"], row["had_room"]), (100, True))
+            self.assertRegex(row["hash"], HASH)
+            self.assertGreater(row["highest_m"], 1)
+        self.assertLess(sizes[0]["moving"], 10)
+        self.assertEqual(self.json_of("size", "--most", 100, "--kinds", "pile")["sizes"][0]["hash"], sizes[2]["hash"])
+
+    def test_takes_powers_of_ten_up_to_the_largest(self):
+        sizes = self.json_of("size", "--most", 2000, "--kinds", "asleep")["sizes"]
+        self.assertEqual([row["bodies"] for row in sizes], [100, 1000, 2000])
+
+    def test_draws(self):
+        with tempfile.TemporaryDirectory() as folder:
+            chart = pathlib.Path(folder) / "chart.svg"
+            self.expect(OK, "size", "--most", 100, "--kinds", "stacks", "--chart", chart)
+            self.assertIn("memory of the world", chart.read_text())
+
+    def test_refuses_wrong_usage(self):
+        self.expect(USAGE, "size", "--kinds", "nothing")
+        self.expect(USAGE, "size", "--most", 99)
+        self.expect(USAGE, "size", "--vectors", "nothing")
+
+
 class Queries(Case):
     @classmethod
     def setUpClass(cls):
@@ -220,6 +247,7 @@ class Pages(Case):
                 "accuracy.md": ("accuracy", "--rows", 3, "--tries", 2, "--page"),
                 "speed.md": ("speed", "--scene", "ball-rain", "--ticks", 2, "--repeats", 1, "--peers", "--islands",
                              "--most", 100, "--vectors", "scalar", "--page"),
+                "size.md": ("size", "--kinds", "pile", "--most", 100, "--cpu", "--page"),
                 "general.md": ("general", "--alone", "--family", "arch", "--seeds", 1, "--substeps", 2, "--page"),
                 "front": ("accuracy", "--scenes", "throw", "--settings", 1, "--repeats", 1, "--alone", "--plot")}
         with tempfile.TemporaryDirectory() as folder:

@@ -10,6 +10,7 @@ void add_bench_queries_command(CLI::App& bench, int& exit_code);
 void add_bench_rollback_command(CLI::App& bench, int& exit_code);
 void add_bench_rows_command(CLI::App& bench, int& exit_code);
 void add_bench_scenes_command(CLI::App& bench, int& exit_code);
+void add_bench_size_command(CLI::App& bench, int& exit_code);
 void add_bench_skip_command(CLI::App& bench, int& exit_code);
 void add_bench_stability_command(CLI::App& bench, int& exit_code);
 void add_bench_speed_command(CLI::App& bench, int& exit_code);
@@ -27,6 +28,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   add_bench_rollback_command(*bench, exit_code);
   add_bench_rows_command(*bench, exit_code);
   add_bench_scenes_command(*bench, exit_code);
+  add_bench_size_command(*bench, exit_code);
   add_bench_skip_command(*bench, exit_code);
   add_bench_stability_command(*bench, exit_code);
   add_bench_speed_command(*bench, exit_code);
