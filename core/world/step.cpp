@@ -103,6 +103,8 @@ void World::Impl::solve_contacts(StepReport& report) {
 void World::Impl::refresh_moved() {
   const StageTimer timer(profiler, StepStage::refresh);
   moved.refresh();
+  for (const std::uint32_t body : continuous.stops().still)
+    if (left_out.still.has(body)) refresh_bounds(body);
 }
 
 // Makes the contacts of the tick those of the state; manifolds have other ids from then on.

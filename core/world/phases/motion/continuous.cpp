@@ -141,6 +141,7 @@ ContinuousCollision::ContinuousCollision(WorldData& world, MovedBodies& moved, N
   joined_movers_.reserve(world.def.joint_capacity == 0 ? 0 : capacity);
   sweepers_.reserve(capacity);
   struck_.reserve(capacity);
+  stops_.still.reserve(capacity);
   stops_.impacts.reserve(capacity);
   stops_.hits.reserve(capacity);
 }
@@ -149,6 +150,7 @@ void ContinuousCollision::run(StepReport& report) {
   const StageTimer timer(world_.profiler, StepStage::continuous);
   stops_.impacts.clear();
   stops_.hits.clear();
+  stops_.still.clear();
   passes_.begin();
   list_sweepers();
   for (const std::uint32_t body : moved_.bodies()) {
@@ -461,6 +463,8 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
     far_movers_[other] |= swept_over;
   }
   if (b.is_dynamic() && b.is_asleep()) waking_.note_hit(other);
+  if (b.still_ticks != 0 && std::ranges::find(stops_.still, other) == stops_.still.end())
+    stops_.still.push_back(other);
   if (stops_.impacts.size() == world_.def.body_capacity) return;
   stops_.impacts.push_back(
       {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});

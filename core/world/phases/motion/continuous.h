@@ -50,6 +50,8 @@ struct Sweeper {
 struct Stops {
   std::vector<ContactEvent> impacts;
   std::vector<HitEvent> hits;
+  /// Still bodies that others were stopped at, each once: they did not move, but have a velocity.
+  std::vector<std::uint32_t> still;
 };
 
 class ContinuousCollision {
