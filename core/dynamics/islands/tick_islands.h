@@ -62,6 +62,7 @@ struct IslandTally {
   bool is_struck = false;         ///< a contact of it comes in fast
   bool has_ball_impacts = false;  ///< `BallImpacts` may push its bodies
   bool is_carried = false;        ///< a joint holds it to an immovable body, or has a drive
+  bool is_supported = false;      ///< a contact holds it against a body that is not pushed
   bool is_loose = false;          ///< a loose pile, which iterations bring to rest
   bool is_converged = false;      ///< solved to convergence, by `BlockSolver`
   std::uint32_t whole = 0;        ///< its number among those solved whole, from 1; 0: it is not
@@ -70,10 +71,13 @@ struct IslandTally {
   std::uint32_t joints = 0;
   std::int32_t least_share = 1 << 30;  ///< of the masses of two that touch or are jointed, Q30
   std::uint32_t loose = 0;             ///< bodies whose pile stays loose, unstirred
+  std::uint32_t nearly_still = 0;  ///< bodies whose island was not seen to move in the last tick
+  bool keeps_pose = false;         ///< a body turned from its recycling pose: it was iterated
   IslandMotion motion{};
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
   SharedCount moved{};        ///< bodies whose poses have changed in the tick
+  SharedCount travelled{};    ///< of these, bodies that did more than tremble
   SharedCount strayed{};      ///< bodies beyond k_wide_range of their recycling poses
   SharedCount overloaded{};   ///< contacts at rest under several times a body's weight; from
                               ///< k_most_overloaded + 1 on it may be any greater number
@@ -85,10 +89,13 @@ struct IslandTally {
   }
   [[nodiscard]] bool is_stack() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_overloaded() const { return overloaded.get() <= k_most_overloaded; }
-  /// Many contacts are overloaded, and a good part of all are new and have no impulses yet.
+  /// Contacts are overloaded, many with joints, and a good part of all are new and have no impulses
+  /// yet.
   [[nodiscard]] bool needs_initial_warm_start() const {
-    if (is_converged) return false;
-    return !few_are_overloaded() && fresh > k_most_overloaded && fresh >= contacts / 4;
+    if (is_converged || fresh < contacts / 4) return false;
+    const bool has_no_joints = joints == 0 && bodies != 0;  // nobody counts where none converges
+    if (!has_no_joints) return !few_are_overloaded() && fresh > k_most_overloaded;
+    return overloaded.get() > 1 && fresh > 1;
   }
 };
 

@@ -97,8 +97,9 @@ class ContactSolver {
   [[nodiscard]] static bool keeps_recycling_pose(const IslandTally* island,
                                                  const BodyRecord& record);
 
-  /// A body of an island has another pose than at the tick's beginning. From any thread.
-  void note_moved(std::uint32_t body, const BodyRecord& record);
+  /// A body of an island has another pose than at the tick's beginning, and did more than tremble
+  /// (`StillIslands::trembles`) or not. From any thread.
+  void note_moved(std::uint32_t body, const BodyRecord& record, bool travelled);
   /// The counts of a body's island; null of a body that is in none.
   [[nodiscard]] const IslandTally* island_of(std::uint32_t body) const {
     return islands_.find(bodies_, body);

@@ -81,6 +81,12 @@ void for_each_body(const ContactScene& scene, const SolverBodies& bodies, Island
   }
 }
 
+// Whether iterations brought it to rest. They hold it until it is still: it would move again, to
+// another equilibrium, if it converged.
+bool is_held_by_iterations(const IslandTally& island) {
+  return island.keeps_pose && island.nearly_still == island.bodies;
+}
+
 std::int64_t impulse_of(const ContactRecord& record) {
   std::int64_t sum = 0;
   for (const ContactPointRecord& point : record.points)
@@ -126,6 +132,10 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
   }
   for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
     if ((body.locks & k_lock_moving) != 0) island.iterates_only = true;
+    if (body.still_ticks != 0) {
+      ++island.nearly_still;
+      if (body.orientation != body.recycling_orientation) island.keeps_pose = true;
+    }
     add_motion(body, island);
   });
   const auto mass = [&](BodyRef body) {
@@ -140,6 +150,7 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
     const std::int32_t share = lesser_share(mass(contact.a), mass(contact.b));
     LKS_ASSERT(share >= 0);
     if (rolls || share < k_least_share) tally.iterates_only = true;
+    if (islands.of(contact.a) == 0 || islands.of(contact.b) == 0) tally.is_supported = true;
     tally.least_share = std::min(tally.least_share, share);
   });
 }
@@ -193,6 +204,7 @@ std::uint8_t EffortPolicy::loose_time(const IslandTally& island, const BodyRecor
 
 bool EffortPolicy::may_converge(const IslandTally& island) const {
   if (island.iterates_only || island.is_pinched || island.is_loose) return false;
+  if (is_held_by_iterations(island)) return false;
   return island.contacts != 0 && island.contacts + island.joints <= most_island_contacts_ &&
          island.bodies <= BodyFactor::k_most_bodies;
 }

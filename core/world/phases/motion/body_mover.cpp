@@ -71,7 +71,7 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
   const Transform& start = moved_.start(body);
   if (solved != nullptr &&
       (record.position != start.position || record.orientation != start.orientation))
-    solver_.note_moved(body, record);
+    solver_.note_moved(body, record, !left_out_.still.trembles(start, record));
 }
 
 // The inverse inertia by which its spin is limited. A body without spin needs none.
@@ -91,8 +91,7 @@ void BodyMover::end() {
           const IslandTally* island = solver_.island_of(body);
           if (!ContactSolver::keeps_recycling_pose(island, record))
             world_.cache.renew_recycling_pose(body, record);
-          const bool is_still = island != nullptr && island->moved.get() == 0;
-          record.still_ticks = is_still ? left_out_.still.count_on(record) : 0;
+          record.still_ticks = left_out_.still.count_of(island, record);
         }
       });
 }

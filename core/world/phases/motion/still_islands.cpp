@@ -6,22 +6,30 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/body/motion.h"
+#include "core/dynamics/body/pose_distance.h"
 
 namespace lockstone {
 namespace {
 
-// An eighth of a second, and not so few ticks that chance decides.
+// Twice an eighth of a second, and not so few ticks that chance decides: ticks in which nothing
+// moves count twice, those in which bodies tremble once.
 std::uint8_t ticks_of(std::int32_t tick_rate) {
-  return static_cast<std::uint8_t>(std::max(tick_rate / 8, 4));
+  return static_cast<std::uint8_t>(2 * std::max(tick_rate / 8, 4));
 }
 
-// Below 61 µm/s along each axis.
+// Below 2^-14 m/s along each axis, 61 µm/s.
+constexpr int k_tremble_exponent = -14;
 bool is_slow(const BodyRecord& body) {
-  constexpr std::int64_t k_slow = std::int64_t{1} << (Velocity::frac_bits - 14);
+  constexpr std::int64_t k_slow = std::int64_t{1} << (Velocity::frac_bits + k_tremble_exponent);
   for (int i = 0; i < 3; ++i)
     if (std::abs(body.velocity[i].raw) >= k_slow || std::abs(body.spin[i].raw) >= k_slow)
       return false;
   return true;
+}
+
+// Bodies that float, hang or are driven may move as slowly as they tremble, and so may one alone.
+bool may_tremble(const IslandTally& island) {
+  return island.bodies > 1 && island.is_supported && !(island.joints != 0 && island.is_carried);
 }
 
 bool has_same_points(const ContactRecord& record, const Manifold& manifold) {
@@ -67,7 +75,7 @@ void StillIslands::find() {
 
 // From one tick before the last, so that differences of that tick count.
 bool StillIslands::is_nearly_still(const BodyRecord& body) const {
-  return body.still_ticks + 1 >= ticks_;
+  return body.still_ticks + 2 >= ticks_;
 }
 
 // Whether any island may be still.
@@ -156,8 +164,25 @@ void StillIslands::leave_out_contacts() {
   }
 }
 
-std::uint8_t StillIslands::count_on(const BodyRecord& body) const {
-  return static_cast<std::uint8_t>(std::min<int>(body.still_ticks + 1, ticks_));
+std::uint8_t StillIslands::count_of(const IslandTally* island, const BodyRecord& body) const {
+  if (island == nullptr) return 0;
+  const bool stands = island->moved.get() == 0;
+  if (!stands && (!may_tremble(*island) || island->travelled.get() != 0)) return 0;
+  return static_cast<std::uint8_t>(std::min<int>(body.still_ticks + (stands ? 2 : 1), ticks_));
+}
+
+bool StillIslands::trembles(const Transform& start, const BodyRecord& body) const {
+  const auto in_a_tick = [this](int bits) {
+    return std::max(
+        (std::int64_t{1} << std::max(bits + k_tremble_exponent, 0)) / world_.time_step.tick_rate,
+        std::int64_t{1});
+  };
+  const std::int64_t way = in_a_tick(Position::frac_bits);
+  const auto way_of = [&](int i) { return body.position[i].raw - start.position[i].raw; };
+  // Turning by a small angle moves the surface by it times the scale.
+  return is_slow(body) && is_within(3, way, way_of) &&
+         is_turned_within(in_a_tick(Unit::frac_bits - 1 - body.scale_exponent), body.orientation,
+                          start.orientation);
 }
 
 }  // namespace lockstone

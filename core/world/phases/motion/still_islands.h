@@ -3,13 +3,15 @@
 // Bodies at rest that may not sleep, or do not yet, cost as much as bodies that move, although
 // nothing about them changes: the solver finds the same impulses again in each tick. So an island
 // of which no body has changed its pose, by a single bit, for an eighth of a second, keeps its
-// contacts and joints as they are. Its velocities, which are rounding errors by then, become zero.
-// It is solved again in the tick in which anything about it differs: a contact or a point of one,
-// a push, a surface that moves. Commands that would wake sleeping bodies reset the counts of bodies
-// that are awake (Waking).
+// contacts and joints as they are, and so does one whose bodies have only trembled for a quarter of
+// a second: by less than 61 µm/s, as errors of the solver let them. Velocities become zero. It is
+// solved again in the tick in which anything about it differs: a contact or a point of one, a push,
+// a surface that moves. Commands that would wake sleeping bodies reset the counts of bodies that
+// are awake (Waking).
 //
-// Error: a body that would gain more than the least speed at which bodies move (solver.md, "Still
-// bodies stay") in an eighth of a second, 6e-5 m/s², does not stand still so long.
+// Error: bodies do not stand still so long that would gain more than 6e-5 m/s² alone (the least
+// speed at which bodies move, solver.md "Still bodies stay", in an eighth of a second), or 2.4e-4
+// m/s² with others (61 µm/s in a quarter).
 #pragma once
 
 #include <cstdint>
@@ -17,6 +19,7 @@
 #include <vector>
 
 #include "core/dynamics/islands/islands.h"
+#include "core/dynamics/islands/tick_islands.h"
 #include "core/world/data/world_data.h"
 #include "core/world/phases/motion/bounces.h"
 #include "core/world/phases/motion/moved_bodies.h"
@@ -42,8 +45,11 @@ class StillIslands {
   [[nodiscard]] std::uint32_t contacts() const { return contacts_; }
   [[nodiscard]] std::uint32_t points() const { return points_; }
 
-  /// The still_ticks of a body of whose island nothing moved in this tick, once it was solved.
-  [[nodiscard]] std::uint8_t count_on(const BodyRecord& body) const;
+  /// The still_ticks of a body of this island, or of none, once it was solved.
+  [[nodiscard]] std::uint8_t count_of(const IslandTally* island, const BodyRecord& body) const;
+
+  /// Whether a body moved from its pose at the tick's beginning no farther than iterations err.
+  [[nodiscard]] bool trembles(const Transform& start, const BodyRecord& body) const;
 
  private:
   [[nodiscard]] bool is_nearly_still(const BodyRecord& body) const;
