@@ -289,7 +289,7 @@ int PhaseSolver::propose(int most_solves) {
       drop_ += k_more_drop;
       if (drop_ > k_most_drop) return 0;
     }
-    // In jammed linkages friction that follows gave energy.
+    // Islands with joints solve once, and keep the friction that their passes found.
     const bool follows = island_.joints.empty();
     const lanes::Proposal proposal = lanes::proximal_kernels().propose(
         problems.data(), problems.size(), drop_, follows, island_.changes.data());

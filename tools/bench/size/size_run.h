@@ -42,7 +42,7 @@ struct SizeFigures {
   double save_ns = 0;          ///< a native snapshot
   double load_ns = 0;          ///< the same
   double hash_ns = 0;          ///< after the last tick
-  double clear_ns = 0;         ///< to destroy every body by a command of its own
+  double destroy_ns = 0;       ///< a body by a command, mean over the last thousand
   double highest = 0;          ///< m, the highest centre of a dynamic body at the end
   std::uint64_t hash = 0;      ///< of the last state
   bool had_room = true;        ///< for all pairs and contacts, in every step

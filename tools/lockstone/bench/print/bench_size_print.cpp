@@ -27,7 +27,7 @@ std::string row_of(const SizeFigures& size, std::string_view line) {
       size.tick_p99_ns / k_ms, size.tick_ns / std::max(size.moving, 1.0) / k_us,
       static_cast<double>(size.heap) / k_mb, static_cast<double>(size.snapshot) / bodies,
       size.make_ns / k_s, size.save_ns / k_ms, size.load_ns / k_ms, size.hash_ns / k_ms,
-      size.clear_ns / k_s, size.highest, hash_text(size.hash));
+      size.destroy_ns / k_us, size.highest, hash_text(size.hash));
 }
 
 using Value = double (*)(const SizeFigures& size);
@@ -55,7 +55,7 @@ std::string size_head(std::string_view clock_name) {
       "{:>8} {:>8} {:>8} {:>7} {:>8}  {}\n",
       lanes::current_target(), clock_name, k_build_remark, "kind", "bodies", "moving", "contacts",
       "ms/tick", "p99", "us/moving", "MB", "B/body", "make s", "save ms", "load ms", "hash ms",
-      "clear s", "top m", "final hash");
+      "destroy", "top m", "final hash");
 }
 
 std::string size_line(const SizeFigures& figures) {
@@ -70,7 +70,7 @@ std::string size_page(std::span<const SizeFigures> all, std::string_view clock_n
       "# Cost against size\n\nMade by `{}`; {}; vectors: {}; {}; commit {}; clock: {}.\n\nOne "
       "thread, 60 Hz, 4 substeps. `us a moving body` is the mean of a tick over the bodies that "
       "moved in it, `MB` the memory of a world made for as many, `B a body` its native\nsnapshot; "
-      "`hash` is that of the records that one tick changed, `clear` destroys each body by a "
+      "`hash` is that of the records that one tick changed, `destroy` is for one body by a "
       "command, `top` is "
       "the highest centre at the end, `make` "
       "includes the ticks until all sleep, where they do.",
@@ -83,7 +83,7 @@ std::string size_page(std::span<const SizeFigures> all, std::string_view clock_n
   text +=
       "\n| kind | bodies | moving | contacts | ms a tick | p99 | us a moving body | MB | B a body "
       "| "
-      "make, s | save, ms | load, ms | hash, ms | clear, s | top, m | final hash |\n"
+      "make, s | save, ms | load, ms | hash, ms | destroy, us | top, m | final hash |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const SizeFigures& size : all)
     text += row_of(size,
@@ -121,7 +121,7 @@ void print_size_json(std::span<const SizeFigures> all, std::string_view clock_na
                              {"save_ns", size.save_ns},
                              {"load_ns", size.load_ns},
                              {"hash_ns", size.hash_ns},
-                             {"clear_ns", size.clear_ns},
+                             {"destroy_ns", size.destroy_ns},
                              {"highest_m", size.highest},
                              {"had_room", size.had_room},
                              {"hash", hash_text(size.hash)}});
