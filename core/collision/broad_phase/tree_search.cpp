@@ -20,12 +20,9 @@ constexpr std::size_t k_most_waiting = 32;
 }  // namespace
 
 void TreeSearch::clear() {
-  for (int i = 0; i < 2; ++i) {
-    trees_[i].clear();
-    leaves_[i] = 0;
-    inserted_[i] = 0;
-  }
-  early_ = {};
+  for (BoundingVolumeTree& tree : trees_)
+    tree.clear();
+  leaves_ = inserted_ = early_ = {};
   std::fill(places_.begin(), places_.end(), Place{});
   waiting_.clear();
 }

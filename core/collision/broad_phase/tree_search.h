@@ -98,10 +98,10 @@ class TreeSearch {
   void rebuild(bool dynamic, std::span<const Proxy> proxies);
 
   BoundingVolumeTree trees_[2];  // of static and kinematic bodies; of dynamic bodies
-  std::uint32_t leaves_[2] = {};
-  std::uint32_t inserted_[2] = {};  // one by one, since all were put in at once
-  Counts early_{};                  // put in by `refresh_when_many` since the last refresh
-  std::vector<Place> places_;       // by body
+  Counts leaves_{};
+  Counts inserted_{};          // one by one, since all were put in at once
+  Counts early_{};             // put in by `refresh_when_many` since the last refresh
+  std::vector<Place> places_;  // by body
   std::vector<std::uint32_t> waiting_;
   std::vector<BoundingVolumeTree::Item> items_;
 };

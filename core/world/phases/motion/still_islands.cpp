@@ -172,6 +172,7 @@ std::uint8_t StillIslands::count_of(const IslandTally* island, const BodyRecord&
 }
 
 bool StillIslands::trembles(const Transform& start, const BodyRecord& body) const {
+  if (!is_slow(body)) return false;
   const auto in_a_tick = [this](int bits) {
     return std::max(
         (std::int64_t{1} << std::max(bits + k_tremble_exponent, 0)) / world_.time_step.tick_rate,
@@ -180,7 +181,7 @@ bool StillIslands::trembles(const Transform& start, const BodyRecord& body) cons
   const std::int64_t way = in_a_tick(Position::frac_bits);
   const auto way_of = [&](int i) { return body.position[i].raw - start.position[i].raw; };
   // Turning by a small angle moves the surface by it times the scale.
-  return is_slow(body) && is_within(3, way, way_of) &&
+  return is_within(3, way, way_of) &&
          is_turned_within(in_a_tick(Unit::frac_bits - 1 - body.scale_exponent), body.orientation,
                           start.orientation);
 }
