@@ -1,3 +1,4 @@
+// The kinds of worlds that are measured in many sizes.
 #include <algorithm>
 
 #include "tools/arena/integers.h"
@@ -59,11 +60,8 @@ World make_awake_stacks(std::uint32_t bodies) {
 }
 
 World make_asleep_stacks(std::uint32_t bodies) {
-  constexpr int k_most_ticks = 240;
   World world = make_stacks(bodies, WorldDef{}.sleep_ms);
-  int ticks = 0;
-  while (world.step().asleep_bodies < bodies)
-    LKS_CHECK(++ticks < k_most_ticks);
+  step_until_asleep(world, bodies);
   return world;
 }
 

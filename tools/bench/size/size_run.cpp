@@ -71,8 +71,8 @@ SizeFigures measure_size(const SizeKind& kind, std::uint32_t bodies, Clock clock
   figures.destroy_ns = time_of(clock, [&] {
     for (std::uint32_t i = 1; i <= destroyed; ++i)
       figures.had_room =
-          figures.had_room &&
-          world->apply(DestroyBody{world->body_at(world->body_limit() - i)}) == Status::ok;
+          world->apply(DestroyBody{world->body_at(world->body_limit() - i)}) == Status::ok &&
+          figures.had_room;
   });
   figures.destroy_ns /= destroyed;
   return figures;

@@ -13,7 +13,6 @@ using scenes::millimetres;
 constexpr int k_floors = 5;
 constexpr int k_row = 50;  // houses
 constexpr int k_spacing_mm = 3000;
-constexpr int k_most_ticks = 240;
 
 }  // namespace
 
@@ -28,9 +27,7 @@ World make_city(BroadPhaseKind broad_phase, std::uint32_t bodies) {
                 scenes::loose(Shape::box(0.5_m, 0.5_m, 0.5_m),
                               {millimetres(x), millimetres(500 + 1000 * floor), millimetres(z)}));
   }
-  int ticks = 0;
-  while (world.step().asleep_bodies < bodies)
-    LKS_CHECK(++ticks < k_most_ticks);
+  step_until_asleep(world, bodies);
   return world;
 }
 

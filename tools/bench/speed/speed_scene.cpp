@@ -40,4 +40,11 @@ World make_speed_world(const WorldDef& def, std::vector<AssetPtr> assets) {
   return std::move(world.value());
 }
 
+void step_until_asleep(World& world, std::uint32_t bodies) {
+  constexpr int k_most_ticks = 240;
+  int ticks = 0;
+  while (world.step().asleep_bodies < bodies)
+    LKS_CHECK(++ticks < k_most_ticks);
+}
+
 }  // namespace lockstone::bench

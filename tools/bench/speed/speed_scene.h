@@ -36,6 +36,9 @@ struct SpeedScene {
 /// An empty world that knows these assets.
 [[nodiscard]] World make_speed_world(const WorldDef& def, std::vector<AssetPtr> assets = {});
 
+/// Until that many bodies sleep, which must be soon.
+void step_until_asleep(World& world, std::uint32_t bodies);
+
 extern const SpeedScene k_large_pyramid, k_many_pyramids;                  // pyramids.cpp
 extern const SpeedScene k_ball_rain, k_capsule_pile, k_box_rain, k_mixed;  // pits.cpp
 extern const SpeedScene k_convex_pile;                                     // convex_pile.cpp

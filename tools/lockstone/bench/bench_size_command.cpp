@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/kernels/target.h"
 #include "tools/bench/size/size_run.h"
 #include "tools/bench/support/measure.h"
 #include "tools/lockstone/bench/print/bench_size_print.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
+#include "tools/lockstone/support/options.h"
 #include "tools/lockstone/support/output_file.h"
 
 namespace lockstone::tool {
@@ -88,11 +88,7 @@ int run(const BenchSizeOptions& options) {
     complain(fmt::format("no kind of world is named {}", name));
     return k_usage;
   }
-  if (!options.vectors.empty() && lanes::set_target(options.vectors) != Status::ok) {
-    complain(fmt::format("no vectors {} here; there are {}", options.vectors,
-                         fmt::join(lanes::supported_targets(), ", ")));
-    return k_usage;
-  }
+  if (!use_vectors(options.vectors)) return k_usage;
   if (!may_write({options.page, options.force}) || !may_write({options.chart, options.force}))
     return k_unavailable;
   if (!options.json) fmt::print("{}", size_head(options.clock_name()));
@@ -117,7 +113,7 @@ void add_bench_size_command(CLI::App& bench, int& exit_code) {
   command->add_option("--most", options->most, "Bodies of the largest world")
       ->check(CLI::Range(k_smallest_world, k_largest_world))
       ->capture_default_str();
-  command->add_option("--vectors", options->vectors, "Use these instead of the widest: avx2, say");
+  add_vectors_option(*command, options->vectors);
   command->add_flag("--cpu", options->cpu,
                     "Count only the time that the stepping thread itself ran");
   command->add_flag("--json", options->json, "Print JSON");

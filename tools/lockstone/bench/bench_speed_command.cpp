@@ -6,9 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "core/kernels/target.h"
 #include "tools/bench/support/measure.h"
 #include "tools/lockstone/bench/bench_beside.h"
 #include "tools/lockstone/bench/print/bench_instructions.h"
@@ -134,11 +132,7 @@ int run(const BenchSpeedOptions& options, bool list) {
     list_scenes(scenes);
     return k_ok;
   }
-  if (!options.vectors.empty() && lanes::set_target(options.vectors) != Status::ok) {
-    complain(fmt::format("no vectors {} here; there are {}", options.vectors,
-                         fmt::join(lanes::supported_targets(), ", ")));
-    return k_usage;
-  }
+  if (!use_vectors(options.vectors)) return k_usage;
   if (options.beside.wanted()) return run_beside(options, scenes);
   const Output csv{options.csv, options.force}, counts{options.instructions, options.force};
   if (!may_write(csv) || !may_write(counts)) return k_unavailable;
@@ -166,7 +160,7 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
                    "Numbers of threads to compare (1 and all; with --cpu 1)")
       ->check(CLI::Range(1U, k_max_workers));
   add_broad_phase_option(*command, options->broad_phase);
-  command->add_option("--vectors", options->vectors, "Use these instead of the widest: avx2, say");
+  add_vectors_option(*command, options->vectors);
   command->add_flag("--cpu", options->cpu,
                     "Count only the time that the stepping thread itself ran");
   command->add_flag("--quick", options->quick, "Run a fifth of the ticks, once");

@@ -3,7 +3,11 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "core/kernels/target.h"
+#include "tools/lockstone/support/console.h"
 
 namespace lockstone::tool {
 
@@ -25,6 +29,17 @@ void add_simd_option(CLI::App& command) {
       .add_option_function<std::string>("--simd", force,
                                         "Vectors to use instead of the best; changes no result")
       ->check(CLI::IsMember(std::vector<std::string>(targets.begin(), targets.end())));
+}
+
+void add_vectors_option(CLI::App& command, std::string& vectors) {
+  command.add_option("--vectors", vectors, "Use these instead of the widest: avx2, say");
+}
+
+bool use_vectors(const std::string& vectors) {
+  if (vectors.empty() || lanes::set_target(vectors) == Status::ok) return true;
+  complain(fmt::format("no vectors {} here; there are {}", vectors,
+                       fmt::join(lanes::supported_targets(), ", ")));
+  return false;
 }
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads) {
