@@ -100,9 +100,12 @@ void World::Impl::solve_contacts(StepReport& report) {
   report.energy_limits = counts.energy_limits;
 }
 
+// Still bodies do not move, but may lose a velocity or get one, and their bounds depend on it.
 void World::Impl::refresh_moved() {
   const StageTimer timer(profiler, StepStage::refresh);
   moved.refresh();
+  for (const std::uint32_t body : left_out.still.stopped())
+    refresh_bounds(body);
   for (const std::uint32_t body : continuous.stops().still)
     if (left_out.still.has(body)) refresh_bounds(body);
 }

@@ -278,6 +278,35 @@ TEST(StillIslands, HaveBoundsThatFitTheirVelocityOnceTheyAreHit) {
   EXPECT_GT(hits, 0U);
 }
 
+// Towers of two slide at 40 µm/s: on their way of a tick one box in 1,465 reaches the next step of
+// its bounds, which are in millimetres. Places are that far apart, so some box does when it stops.
+TEST(StillIslands, HaveBoundsThatFitTheirVelocityOnceTheyStop) {
+  constexpr std::uint32_t k_towers = 1465;
+  WorldDef def;
+  def.body_capacity = 2 * k_towers + 1;
+  def.pair_capacity = def.contact_capacity = def.converged_contacts = 4 * k_towers;
+  def.sleep_ms = 0;
+  World world = test::make_world(def);
+  BodyDef ground = test::dynamic_body(Shape::half_space(), {}, {}, {});
+  ground.motion = MotionType::static_body;
+  ground.material.friction = {};
+  test::add(world, ground);
+  for (std::uint32_t i = 0; i < 2 * k_towers; ++i) {
+    BodyDef box = test::dynamic_body(unit_box(), {}, Position::from_ratio(i % 2 * 2 + 1, 2), {});
+    box.position.x = Position::from_integer(i / 2 * 2) + Position::from_ratio(i / 2 * 2, 3'000'000);
+    box.material.friction = {};
+    box.velocity.x = Velocity::from_ratio(1, 25'000);
+    test::add(world, box);
+  }
+  std::uint32_t still = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    still = world.step().still_bodies;
+    const WorldFault fault = world.find_fault();
+    EXPECT_FALSE(fault) << fault.what << " " << fault.index << ", tick " << tick;
+  }
+  EXPECT_EQ(still, 2 * k_towers);
+}
+
 TEST(StillIslands, DoNotIncludeBodiesInFreeFlight) {
   World world = make_sleepless_world();
   ASSERT_EQ(world.apply(SetGravity{{}}), Status::ok);

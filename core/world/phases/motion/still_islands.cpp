@@ -52,12 +52,14 @@ StillIslands::StillIslands(WorldData& world, TickContacts& found, const Bounces&
       is_still_(world.def.body_capacity),
       is_tied_(world.def.body_capacity) {
   bodies_.reserve(world.def.body_capacity);
+  stopped_.reserve(world.def.body_capacity);
 }
 
 void StillIslands::find() {
   for (const std::uint32_t body : bodies_)
     is_still_[body] = 0;
   bodies_.clear();
+  stopped_.clear();
   contacts_ = points_ = 0;
   if (!may_find()) return;
   islands_.begin(world_.awake.list());
@@ -149,6 +151,7 @@ void StillIslands::keep(std::uint32_t body) {
   is_still_[body] = 1;
   bodies_.push_back(body);
   if (record.still_ticks > ticks_) return;
+  stopped_.push_back(body);
   record.velocity = record.spin = {};
   record.still_ticks = static_cast<std::uint8_t>(ticks_ + 1);
   world_.hashes.bodies.mark(body);

@@ -41,6 +41,8 @@ class StillIslands {
   [[nodiscard]] bool has(std::uint32_t body) const { return is_still_[body] != 0; }
   /// Ascending.
   [[nodiscard]] std::span<const std::uint32_t> bodies() const { return bodies_; }
+  /// Those that were not still in the tick before: they have lost their velocities.
+  [[nodiscard]] std::span<const std::uint32_t> stopped() const { return stopped_; }
   /// Contacts of still islands, and their points.
   [[nodiscard]] std::uint32_t contacts() const { return contacts_; }
   [[nodiscard]] std::uint32_t points() const { return points_; }
@@ -72,6 +74,7 @@ class StillIslands {
   std::vector<std::uint8_t> is_still_;  // by body
   std::vector<std::uint8_t> is_tied_;   // by body: by a contact or a joint
   std::vector<std::uint32_t> bodies_;   // that are still
+  std::vector<std::uint32_t> stopped_;  // that are still since this tick
   std::uint32_t contacts_ = 0, points_ = 0;
 };
 
