@@ -143,11 +143,26 @@ constexpr ManifoldGeometry k_no_geometry{};
 static_assert(offsetof(ManifoldBlock, axes) == sizeof(BlockWord) &&
               sizeof(ManifoldBlock) % sizeof(BlockWord) == 0);
 
+// Of points beyond a manifold's count blocks tell impulses and masses.
+void forget_points(const PrepareInput& source, std::size_t lane, ManifoldBlock& block,
+                   ManifoldApproach& approach) {
+  for (auto i = static_cast<std::size_t>(source.count); i < k_block_points; ++i) {
+    block.points[i].offset[lane] = block.points[i].separation[lane] = approach.speed[i][lane] = 0;
+    if (i == 1) block.response_01_23[lane] &= ~std::int64_t{0xffffffff};
+    if (i == 2) block.response_02_13[lane] &= ~std::int64_t{0xffffffff};
+    if (i == 2) block.response_03_12[lane] &= 0xffffffff;
+    if (i == 3) block.response_01_23[lane] &= 0xffffffff;
+    if (i == 3) block.response_02_13[lane] &= 0xffffffff;
+    if (i == 3) block.response_03_12[lane] &= ~std::int64_t{0xffffffff};
+  }
+}
+
 // Of lanes without a manifold blocks say nothing, of plain ones not all.
 void forget_empty(const PrepareInputs& sources, ManifoldBlock& block, ManifoldApproach& approach) {
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const PrepareInput& source = sources.lanes[lane];
-    const bool is_empty = source.one_over_count == 0;
+    const bool is_empty = source.count == 0;
+    forget_points(source, lane, block, approach);
     const std::size_t first = is_empty ? sizeof(BlockWord) : offsetof(ManifoldBlock, inertia);
     const std::int64_t none = 0;
     auto* const bytes = reinterpret_cast<unsigned char*>(&block);

@@ -13,18 +13,24 @@ ConstraintGraph::ConstraintGraph(std::size_t body_capacity, std::size_t constrai
 void ConstraintGraph::clear() {
   taken_.clear();
   add_body();
-  std::fill(std::begin(counts_), std::end(counts_), 0U);
+  for (auto& counts : counts_)
+    counts.fill(0);
   size_ = 0;
 }
 
 std::uint32_t ConstraintGraph::greatest_count() const {
-  return *std::max_element(counts_, counts_ + k_graph_colors);
+  std::uint32_t most = 0;
+  for (std::size_t color = 0; color < k_graph_colors; ++color)
+    most = std::max(most, count(color));
+  return most;
 }
 
 // A constraint gets the first colour free at both bodies: none below one in use is empty.
 std::uint32_t ConstraintGraph::colors() const {
-  const std::uint32_t* const end = counts_ + k_graph_colors;
-  return static_cast<std::uint32_t>(std::find(counts_, end, 0U) - counts_);
+  std::uint32_t color = 0;
+  while (color < k_graph_colors && count(color) != 0)
+    ++color;
+  return color;
 }
 
 }  // namespace lockstone

@@ -6,10 +6,12 @@
 // colouring for wide solvers: E. Catto, "SIMD Matters", 2024.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -20,6 +22,9 @@ namespace lockstone {
 /// Colours for constraints side by side; a constraint that finds none goes to the overflow colour.
 inline constexpr std::size_t k_graph_colors = 32;
 inline constexpr std::size_t k_overflow_color = k_graph_colors;
+
+/// Constraints of a colour are of this many kinds at most.
+inline constexpr std::size_t k_constraint_kinds = 3;
 
 class ConstraintGraph {
  public:
@@ -33,8 +38,11 @@ class ConstraintGraph {
   void add_body() { taken_.push_back(0); }
 
   /// A body that is not `pushed` conflicts with nothing: constraints may share it. No more are
-  /// added than there is room for.
-  void add(std::uint32_t body_a, bool pushed_a, std::uint32_t body_b, bool pushed_b) {
+  /// added than there is room for. The colour does not depend on the kind; in the overflow, whose
+  /// constraints are solved in their order, all are of kind 0.
+  void add(std::uint32_t body_a, bool pushed_a, std::uint32_t body_b, bool pushed_b,
+           std::size_t kind = 0) {
+    LKS_ASSERT(kind < k_constraint_kinds);
     LKS_ASSERT(!pushed_a || body_a < taken_.size());
     LKS_ASSERT(!pushed_b || body_b < taken_.size());
     const std::uint32_t taken = (pushed_a ? taken_[body_a] : 0U) | (pushed_b ? taken_[body_b] : 0U);
@@ -43,13 +51,17 @@ class ConstraintGraph {
       const std::uint32_t bit = 1U << color;
       if (pushed_a) taken_[body_a] |= bit;
       if (pushed_b) taken_[body_b] |= bit;
+    } else {
+      kind = 0;
     }
-    places_[size_++] = {color, counts_[color]++};
+    places_[size_++] = {static_cast<std::uint16_t>(color), static_cast<std::uint16_t>(kind),
+                        counts_[color][kind]++};
   }
 
-  /// Where a constraint stands: the how-manieth of its colour, in the order of adding.
+  /// Where a constraint stands: the how-manieth of its colour and kind, in the order of adding.
   struct Place {
-    std::uint32_t color;
+    std::uint16_t color;
+    std::uint16_t kind;
     std::uint32_t rank;
   };
   [[nodiscard]] std::span<const Place> places() const { return {places_.get(), size_}; }
@@ -57,8 +69,14 @@ class ConstraintGraph {
   /// Constraints of a body, as many as there are colours at most.
   [[nodiscard]] int degree(std::uint32_t body) const { return std::popcount(taken_[body]); }
 
-  /// Constraints of a colour, the overflow included.
-  [[nodiscard]] std::uint32_t count(std::size_t color) const { return counts_[color]; }
+  /// Constraints of a colour and kind, the overflow included.
+  [[nodiscard]] std::uint32_t count(std::size_t color, std::size_t kind) const {
+    return counts_[color][kind];
+  }
+  /// Of all kinds.
+  [[nodiscard]] std::uint32_t count(std::size_t color) const {
+    return std::accumulate(counts_[color].begin(), counts_[color].end(), 0U);
+  }
   /// Of the colour that has most, the overflow left out.
   [[nodiscard]] std::uint32_t greatest_count() const;
 
@@ -69,7 +87,7 @@ class ConstraintGraph {
   std::vector<std::uint32_t> taken_;  // by body: a bit a colour
   std::unique_ptr<Place[]> places_;   // the first size_, in the order of adding
   std::size_t size_ = 0;
-  std::uint32_t counts_[k_graph_colors + 1] = {};
+  std::array<std::uint32_t, k_constraint_kinds> counts_[k_graph_colors + 1] = {};
 };
 
 }  // namespace lockstone

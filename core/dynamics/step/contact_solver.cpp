@@ -86,7 +86,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   tick_.first_substep =
       static_cast<std::uint32_t>(scene.tick) * static_cast<std::uint32_t>(schedule_.substeps());
   gather(scene, parallel);
-  constraints_.lay_out(parallel);
+  constraints_.lay_out(scene, parallel);
   schedule_.plan_preparation(work());
   schedule_.run(parallel, [&](const Stage& stage, std::size_t first, std::size_t end) {
     prepare_piece(scene, stage, first, end);

@@ -41,7 +41,8 @@ inline constexpr std::int32_t k_touching_lane = 1 << 8;
 
 /// Eight manifolds that share no body, save one that nothing moves (zero gains). `pack(low, high)`
 /// holds two operands. `shift` is 16 … 28, and Q(shift) is the format of quantities that grow with
-/// the inverse inertia. In a lane without a manifold `used` is 0, and the rest is meaningless.
+/// the inverse inertia. In a lane without a manifold `used` is 0, and the rest is meaningless. Of
+/// points beyond a manifold's count the impulse and the mass are 0, and the rest is meaningless.
 struct alignas(64) ManifoldBlock {
   std::array<std::uint32_t, k_block_lanes> body_a{};  // body_velocity_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};
@@ -64,9 +65,8 @@ struct alignas(64) ManifoldBlock {
   BlockWord mean_part{};  // (1 − κ)·mean impulse, which a soft row adds; m/s, Q50
 
   BlockWord mass_01{}, mass_23{};  // 1 / (the response of each point to itself), Q30; 0: no point
-  BlockWord used{};                // 0 in a lane without a manifold
+  BlockWord used{};                // a bit for each point; 0 in a lane without a manifold
   // Responses: the speed at one point that a unit impulse at another gives, Q(shift).
-  BlockWord response_00_11{}, response_22_33{};
   BlockWord response_01_23{}, response_02_13{}, response_03_12{};
   BlockWord gain_arm[3]{};  // the arms times α
   BlockWord gain_turn{};    // the scales times α

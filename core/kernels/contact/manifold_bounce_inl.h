@@ -22,11 +22,11 @@ HWY_INLINE HWY_ATTR void bounce_lanes(ManifoldBlock& block, std::size_t lane, st
   const Axes axes = load_axes(block, lane);
   const CenterMotion motion = read_motion(BlockSides<plain>{block, lane}, axes, bodies);
   PointLanes points{};
-  load_points(block, lane, axes, motion, points);
+  load_points<k_block_points>(block, lane, axes, motion, points);
   Responses responses{};
-  load_responses(block, lane, responses);
+  load_responses<k_block_points>(block, lane, responses);
   const Lanes none = broadcast(0), elasticity = load(&restitution[lane]);
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < k_block_points; ++i) {
     const Lanes came = load(&approach.speed[i][lane]);
     const Lanes wanted = round_shift_low<30>(multiply(elasticity, came));
     const Lanes error = add(points.speed[i], wanted);
@@ -37,11 +37,11 @@ HWY_INLINE HWY_ATTR void bounce_lanes(ManifoldBlock& block, std::size_t lane, st
                            points.impulse[i], bounced);
     const Lanes moved = subtract(bounced, points.impulse[i]);
     points.impulse[i] = bounced;
-    for (std::size_t j = i + 1; j < 4; ++j)
+    for (std::size_t j = i + 1; j < k_block_points; ++j)
       points.speed[j] = add(points.speed[j], axes.by.round(multiply(responses.of[j][i], moved)));
   }
-  store_points(points, lane, block);
-  apply(BlockSides<plain>{block, lane}, axes, sum_of(points), bodies);
+  store_points<k_block_points>(points, lane, block);
+  apply<true>(BlockSides<plain>{block, lane}, axes, sum_of<k_block_points>(points), bodies);
   bodies.store_to(words, block, lane);
 }
 
@@ -49,7 +49,7 @@ HWY_ATTR inline void bounce_manifolds(BodyVelocity* bodies, ManifoldBlock& block
                                       const ManifoldApproach& approach,
                                       const BlockWord& restitution, std::int32_t threshold) {
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-    if (is_empty(block, lane)) continue;
+    if (used_points(block, lane) == 0) continue;
     std::int64_t* words = bodies->velocity.data();
     if (are_plain(block, lane)) {
       bounce_lanes<true>(block, lane, words, approach, restitution, threshold);

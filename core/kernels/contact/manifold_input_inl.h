@@ -110,24 +110,26 @@ HWY_INLINE HWY_ATTR SourcePoint load_point(const std::int32_t* const* geometry, 
           clamp(multiply(word_3, broadcast(1)), broadcast(-k_farthest), broadcast(k_farthest))};
 }
 
-/// The mean of the points that there are.
-HWY_INLINE HWY_ATTR Vector mean_of(const Vector& a, const Vector& b, const Vector& c,
-                                   const Vector& d, Lanes one_over_count) {
-  return round_shift_low<30>(add(add(multiply(a, one_over_count), multiply(b, one_over_count)),
-                                 add(multiply(c, one_over_count), multiply(d, one_over_count))));
-}
-
+/// The first `most` points. The centre is the mean of those that there are.
+template <std::size_t most>
 HWY_INLINE HWY_ATTR SourcePoints load_source_points(const std::int32_t* const* geometry,
                                                     Lanes count, Lanes one_over_count) {
-  const SourcePoint p = load_point(geometry, 0, count), q = load_point(geometry, 1, count);
-  const SourcePoint r = load_point(geometry, 2, count), s = load_point(geometry, 3, count);
-  const Vector center_a = mean_of(p.on_a, q.on_a, r.on_a, s.on_a, one_over_count);
-  const Vector center_b = mean_of(p.on_b, q.on_b, r.on_b, s.on_b, one_over_count);
-  return {{subtract(p.on_b, center_b), subtract(q.on_b, center_b), subtract(r.on_b, center_b),
-           subtract(s.on_b, center_b)},
-          {p.separation, q.separation, r.separation, s.separation},
-          center_a,
-          center_b};
+  SourcePoints points{};
+  Vector sum_a{}, sum_b{};
+  for (std::size_t i = 0; i < most; ++i) {
+    const SourcePoint point = load_point(geometry, i, count);
+    const Vector part_a = multiply(point.on_a, one_over_count);
+    const Vector part_b = multiply(point.on_b, one_over_count);
+    sum_a = i == 0 ? part_a : add(sum_a, part_a);
+    sum_b = i == 0 ? part_b : add(sum_b, part_b);
+    points.from_center[i] = point.on_b;
+    points.separation[i] = point.separation;
+  }
+  points.center_a = round_shift_low<30>(sum_a);
+  points.center_b = round_shift_low<30>(sum_b);
+  for (std::size_t i = 0; i < most; ++i)
+    points.from_center[i] = subtract(points.from_center[i], points.center_b);
+  return points;
 }
 
 /// Where the records of sources lie from a piece on.

@@ -33,49 +33,64 @@ HWY_INLINE HWY_ATTR Lanes touching_word(const SolverParams& rules) {
   return broadcast((std::int64_t{rules.contact_slop} << 32) | 0xffffffff);
 }
 
-/// How fast points go apart at their offsets.
+/// How fast points go apart at their offsets, as the tangents see the turning. A single point is
+/// the centre.
+template <std::size_t count>
+HWY_INLINE HWY_ATTR Lanes speed_at(Lanes x, Lanes y, Lanes along, Lanes about_t, Lanes about_b) {
+  if constexpr (count == 1) return round_shift_low<30>(along);
+  return round_shift_low<30>(multiply_subtract(multiply_add(along, y, about_t), x, about_b));
+}
+
+/// How fast the first `count` points go apart.
+template <std::size_t count>
 HWY_INLINE HWY_ATTR void find_speeds(const Axes& axes, const CenterMotion& motion,
                                      PointLanes& points) {
   const Lanes along = dot(axes.n, round_shift_low<30>(motion.velocity));
   const Lanes about_t = round_shift_low<30>(dot(axes.t, motion.turning));
   const Lanes about_b = round_shift_low<30>(dot(axes.b, motion.turning));
-  for (std::size_t i = 0; i < 4; ++i)
-    points.speed[i] = round_shift_low<30>(
-        multiply_subtract(multiply_add(along, points.y[i], about_t), points.x[i], about_b));
+  for (std::size_t i = 0; i < count; ++i)
+    points.speed[i] = speed_at<count>(points.x[i], points.y[i], along, about_t, about_b);
 }
 
+template <std::size_t count>
 HWY_INLINE HWY_ATTR void load_points(const ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                      const CenterMotion& motion, PointLanes& points) {
-  const Lanes mass_01 = load(&block.mass_01[lane]), mass_23 = load(&block.mass_23[lane]);
+  const Lanes mass_01 = load(&block.mass_01[lane]);
   points.mass[0] = lower_part(mass_01);
-  points.mass[1] = upper_part(mass_01);
-  points.mass[2] = lower_part(mass_23);
-  points.mass[3] = upper_part(mass_23);
-  for (std::size_t i = 0; i < 4; ++i) {
+  if constexpr (count > 1) points.mass[1] = upper_part(mass_01);
+  if constexpr (count > 2) {
+    const Lanes mass_23 = load(&block.mass_23[lane]);
+    points.mass[2] = lower_part(mass_23);
+    points.mass[3] = upper_part(mass_23);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
     points.x[i] = load(&block.points[i].offset[lane]);
     points.y[i] = load_upper(&block.points[i].offset[lane]);
     points.start[i] = lower_part(load(&block.points[i].impulse[lane]));
     points.impulse[i] = points.start[i];
   }
-  find_speeds(axes, motion, points);
+  find_speeds<count>(axes, motion, points);
 }
 
 /// Whether any point of any lane is apart.
+template <std::size_t count>
 HWY_INLINE HWY_ATTR bool find_gaps(const ManifoldBlock& block, std::size_t lane,
                                    const SolverParams& rules, PointLanes& points) {
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < count; ++i)
     points.gap[i] = load(&block.points[i].separation[lane]);
-  points.widest = max(max(points.gap[0], points.gap[1]), max(points.gap[2], points.gap[3]));
+  points.widest = points.gap[0];
+  for (std::size_t i = 1; i < count; ++i)
+    points.widest = max(points.widest, points.gap[i]);
   return any_less(touching_word(rules), points.widest);
 }
 
 /// The bias speeds by separation. A point that is apart may close its gap in a substep, no more;
 /// else, when `soft`, the spring pulls towards its rest, at most at the speed of pushing out.
-template <bool soft, bool apart>
+template <std::size_t count, bool soft, bool apart>
 HWY_INLINE HWY_ATTR void load_biases(const ManifoldBlock& block, std::size_t lane,
                                      const SolverParams& rules, PointLanes& points) {
   constexpr std::int64_t k_fastest = std::int64_t{1} << 34;  // 1024 m/s, Q24
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const Lanes now = load_upper(&block.points[i].separation[lane]);
     Lanes bias = broadcast(0);
     if constexpr (soft) {
@@ -137,13 +152,12 @@ struct Responses {
   Lanes of[4][4];
 };
 
+template <std::size_t count>
 HWY_INLINE HWY_ATTR void load_responses(const ManifoldBlock& block, std::size_t lane,
                                         Responses& r) {
-  r.of[0][0] = load(&block.response_00_11[lane]);
-  r.of[1][1] = load_upper(&block.response_00_11[lane]);
-  r.of[2][2] = load(&block.response_22_33[lane]);
-  r.of[3][3] = load_upper(&block.response_22_33[lane]);
+  if constexpr (count == 1) return;
   r.of[0][1] = r.of[1][0] = load(&block.response_01_23[lane]);
+  if constexpr (count == 2) return;
   r.of[2][3] = r.of[3][2] = load_upper(&block.response_01_23[lane]);
   r.of[0][2] = r.of[2][0] = load(&block.response_02_13[lane]);
   r.of[1][3] = r.of[3][1] = load_upper(&block.response_02_13[lane]);
@@ -152,96 +166,111 @@ HWY_INLINE HWY_ATTR void load_responses(const ManifoldBlock& block, std::size_t 
 }
 
 /// The points in turn; each tells those after it.
-template <class Row>
+template <std::size_t count, class Row>
 HWY_INLINE HWY_ATTR void solve_points(const Responses& r, const EachShift& by, const Row& row,
                                       PointLanes& points) {
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const Lanes error = add(points.speed[i], points.bias[i]);
     const Lanes next = row.next(points, i, multiply(points.mass[i], error), points.gap[i]);
     const Lanes moved = subtract(next, points.impulse[i]);
     points.impulse[i] = next;
-    for (std::size_t j = i + 1; j < 4; ++j)
+    for (std::size_t j = i + 1; j < count; ++j)
       points.speed[j] = add(points.speed[j], by.round(multiply(r.of[j][i], moved)));
   }
 }
 
 /// Changes of the normal impulses as one at the centre: (1, x, y)·ΔP.
+template <std::size_t count>
 HWY_INLINE HWY_ATTR Impulse sum_of(const PointLanes& points) {
-  Lanes push = broadcast(0), x = broadcast(0), y = broadcast(0);
-  for (std::size_t i = 0; i < 4; ++i) {
+  const Lanes none = broadcast(0);
+  if constexpr (count == 1) {
+    const Lanes moved = saturate(subtract(points.impulse[0], points.start[0]));
+    return {moved, none, none, none, none, none};
+  }
+  Lanes push = none, x = none, y = none;
+  for (std::size_t i = 0; i < count; ++i) {
     const Lanes moved = subtract(points.impulse[i], points.start[i]);
     push = add(push, moved);
     x = multiply_add(x, points.x[i], moved);
     y = multiply_add(y, points.y[i], moved);
   }
-  const Lanes none = broadcast(0);
   const Lanes about_b = subtract(none, x);
   return {saturate(push), none, none, none, round_shift_low<30>(y), round_shift_low<30>(about_b)};
 }
 
+template <std::size_t count>
 HWY_INLINE HWY_ATTR void store_points(const PointLanes& points, std::size_t lane,
                                       ManifoldBlock& block) {
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     std::int64_t* word = &block.points[i].impulse[lane];
     const Lanes greatest = max(upper_part(load(word)), points.impulse[i]);
     store(add(points.impulse[i], shift_left<32>(greatest)), word);
   }
 }
 
-template <class Row>
+template <std::size_t count, class Row>
 HWY_INLINE HWY_ATTR void solve_rows(const ManifoldBlock& block, std::size_t lane,
                                     const EachShift& by, const Row& row, PointLanes& points) {
   Responses responses{};
-  load_responses(block, lane, responses);
-  solve_points(responses, by, row, points);
+  load_responses<count>(block, lane, responses);
+  solve_points<count>(responses, by, row, points);
 }
 
 /// Most blocks have no point that is apart, and skip the work for such points.
-template <bool soft, bool apart>
+template <std::size_t count, bool soft, bool apart>
 HWY_INLINE HWY_ATTR void solve_biased(const ManifoldBlock& block, std::size_t lane,
                                       const EachShift& by, const SolverParams& rules,
                                       PointLanes& points) {
-  load_biases<soft, apart>(block, lane, rules, points);
+  load_biases<count, soft, apart>(block, lane, rules, points);
   if constexpr (soft) {
     const SoftRow<apart> row = {load_upper(&block.soft[lane]), touching_word(rules)};
-    solve_rows(block, lane, by, row, points);
+    solve_rows<count>(block, lane, by, row, points);
   } else {
-    solve_rows(block, lane, by, HardRow{}, points);
+    solve_rows<count>(block, lane, by, HardRow{}, points);
   }
 }
 
-template <bool soft>
+template <std::size_t count, bool soft>
 HWY_INLINE HWY_ATTR Impulse solve_normals(ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                           const CenterMotion& motion, const SolverParams& rules,
                                           Ahead& ahead, PointLanes& points) {
   constexpr std::size_t lines = soft ? k_normal_lines : k_friction_lines;
-  load_points(block, lane, axes, motion, points);
+  load_points<count>(block, lane, axes, motion, points);
   ahead.ask(lines);
-  if (find_gaps(block, lane, rules, points)) {
-    solve_biased<soft, true>(block, lane, axes.by, rules, points);
+  if (find_gaps<count>(block, lane, rules, points)) {
+    solve_biased<count, soft, true>(block, lane, axes.by, rules, points);
   } else {
-    solve_biased<soft, false>(block, lane, axes.by, rules, points);
+    solve_biased<count, soft, false>(block, lane, axes.by, rules, points);
   }
   ahead.ask(lines);
-  store_points(points, lane, block);
-  return sum_of(points);
+  store_points<count>(points, lane, block);
+  return sum_of<count>(points);
 }
 
+/// Lanes of a block, and all that an iteration without friction reads of them.
 template <bool plain>
-HWY_INLINE HWY_ATTR void solve_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
-                                     const SolverParams& rules, Ahead& ahead) {
-  BodyPair bodies{};
-  bodies.load_from(words, block, lane);
-  ahead.ask(k_normal_lines);
-  const Axes axes = load_axes(block, lane);
-  const CenterMotion motion = read_motion(BlockSides<plain>{block, lane}, axes, bodies);
-  ahead.ask(k_normal_lines);
-  PointLanes points{};
-  const Impulse p = solve_normals<true>(block, lane, axes, motion, rules, ahead, points);
-  apply(BlockSides<plain>{block, lane}, axes, p, bodies);
-  ahead.ask(k_normal_lines);
-  bodies.store_to(words, block, lane);
-}
+struct SolveLanes {
+  ManifoldBlock& block;
+  std::size_t lane;
+  std::int64_t* words;
+  const SolverParams& rules;
+  Ahead& ahead;
+
+  template <std::size_t count>
+  HWY_INLINE HWY_ATTR void run() const {
+    BodyPair bodies{};
+    bodies.load_from(words, block, lane);
+    ahead.ask(k_normal_lines);
+    const Axes axes = load_axes(block, lane);
+    const CenterMotion motion = read_motion(BlockSides<plain>{block, lane}, axes, bodies);
+    ahead.ask(k_normal_lines);
+    PointLanes points{};
+    const Impulse p = solve_normals<count, true>(block, lane, axes, motion, rules, ahead, points);
+    apply<count != 1>(BlockSides<plain>{block, lane}, axes, p, bodies);
+    ahead.ask(k_normal_lines);
+    bodies.store_to(words, block, lane);
+  }
+};
 
 HWY_ATTR inline void solve_manifolds(BodyVelocity* bodies, ManifoldBlock* blocks, std::size_t count,
                                      const SolverParams& rules) {
@@ -251,12 +280,13 @@ HWY_ATTR inline void solve_manifolds(BodyVelocity* bodies, ManifoldBlock* blocks
     Ahead(&block_at(blocks, i + 2, count)).ask(1);
     Ahead ahead(&next.axes);
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      if (is_empty(blocks[i], lane)) continue;
+      const std::int64_t used = used_points(blocks[i], lane);
+      if (used == 0) continue;
       ask_for_bodies(words, next, lane);
       if (are_plain(blocks[i], lane)) {
-        solve_lanes<true>(blocks[i], lane, words, rules, ahead);
+        run_for_points(used, SolveLanes<true>{blocks[i], lane, words, rules, ahead});
       } else {
-        solve_lanes<false>(blocks[i], lane, words, rules, ahead);
+        run_for_points(used, SolveLanes<false>{blocks[i], lane, words, rules, ahead});
       }
     }
   }

@@ -13,22 +13,33 @@ HWY_BEFORE_NAMESPACE();
 namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
 
-/// Whether none of the lanes at hand has a manifold, so that they can be skipped.
-HWY_INLINE HWY_ATTR bool is_empty(const ManifoldBlock& block, std::size_t lane) {
-  if constexpr (k_lanes == k_block_lanes) return false;
+/// A bit for each point that a lane at hand has. Where there is none, lanes can be skipped.
+HWY_INLINE HWY_ATTR std::int64_t used_points(const ManifoldBlock& block, std::size_t lane) {
   std::int64_t used = 0;
   for (std::size_t i = lane; i < lane + k_lanes; ++i)
     used |= block.used[i];
-  return used == 0;
+  return used;
 }
 
 // Where few run it, one text serves plain manifolds and others: programs are smaller by a
-// twentieth.
+// twentieth. Likewise one text serves any number of points, also where programs are downloaded.
 #if defined(LKS_SCALAR_TWIN)
 constexpr bool k_tells_plain = false;
+constexpr bool k_tells_points = false;
 #else
 constexpr bool k_tells_plain = HWY_TARGET != HWY_SSE4;
+constexpr bool k_tells_points = k_tells_plain && HWY_TARGET != HWY_WASM;
 #endif
+
+/// Calls `work.run<points>()` for the points of these bits: of one, two, or four.
+template <class Work>
+HWY_INLINE HWY_ATTR void run_for_points(std::int64_t used, const Work& work) {
+  if constexpr (k_tells_points) {
+    if (used == 1) return work.template run<1>();
+    if (used <= 3) return work.template run<2>();
+  }
+  work.template run<k_block_points>();
+}
 
 /// Whether all lanes at hand are plain.
 HWY_INLINE HWY_ATTR bool are_plain(const ManifoldBlock& block, std::size_t lane) {
@@ -236,25 +247,28 @@ struct Impulse {
   Lanes about_n, about_t, about_b;
 };
 
-/// vB += αB·J, vA += αB·J − J, LB += (αB r̄B) × J + αB(ℓ/sB)·T, LA −= the same of A.
-template <class Sides>
+/// vB += αB·J, vA += αB·J − J, LB += (αB r̄B) × J + αB(ℓ/sB)·T, LA −= the same of A. The torques
+/// are 0 unless `turns`, as those of a single point at the centre.
+template <bool turns, class Sides>
 HWY_INLINE HWY_ATTR void apply(const Sides& sides, const Axes& axes, const Impulse& p,
                                BodyPair& bodies) {
   constexpr int k_below_grid = k_velocity_bits - k_grid_bits;
   const Vector push = round_shift_low<30>(
       add(add(multiply(axes.n, p.n), multiply(axes.t, p.t)), multiply(axes.b, p.b)));
-  const Vector torque = round_shift_low<30>(add(
-      add(multiply(axes.n, p.about_n), multiply(axes.t, p.about_t)), multiply(axes.b, p.about_b)));
   const Vector to_b = round_to_multiple<k_below_grid>(multiply(push, sides.share_b()));
   const Vector to_a = subtract(multiply(push, broadcast(std::int64_t{1} << 30)), to_b);
-  const Vector spin_b = round_to_multiple<k_below_grid>(
-      add(cross(sides.gain_arm_b(), push), multiply(torque, sides.gain_turn_b())));
-  const Vector spin_a = round_to_multiple<k_below_grid>(
-      add(cross(sides.gain_arm_a(), push), multiply(torque, sides.gain_turn_a())));
+  Vector spin_b = cross(sides.gain_arm_b(), push), spin_a = cross(sides.gain_arm_a(), push);
+  if constexpr (turns) {
+    const Vector torque =
+        round_shift_low<30>(add(add(multiply(axes.n, p.about_n), multiply(axes.t, p.about_t)),
+                                multiply(axes.b, p.about_b)));
+    spin_b = add(spin_b, multiply(torque, sides.gain_turn_b()));
+    spin_a = add(spin_a, multiply(torque, sides.gain_turn_a()));
+  }
   add_to(bodies.b.velocity, to_b);
-  add_to(bodies.b.spin, spin_b);
+  add_to(bodies.b.spin, round_to_multiple<k_below_grid>(spin_b));
   take_from(bodies.a.velocity, to_a);
-  take_from(bodies.a.spin, spin_a);
+  take_from(bodies.a.spin, round_to_multiple<k_below_grid>(spin_a));
 }
 
 }  // namespace HWY_NAMESPACE

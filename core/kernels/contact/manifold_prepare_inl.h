@@ -142,13 +142,18 @@ HWY_INLINE HWY_ATTR Lanes offset_along(const Vector& axis, const Vector& point, 
   return by.round(clamp(dot(axis, point), subtract(broadcast(0), bound), bound));
 }
 
+template <std::size_t count>
 HWY_INLINE HWY_ATTR void find_offsets(const SourceLanes& in, const SourcePoints& points,
                                       const Axes& axes, Offsets& offsets) {
+  if constexpr (count == 1) {
+    offsets.x[0] = offsets.y[0] = offsets.square = broadcast(0);
+    return;
+  }
   // Q20 · Q30 / ℓ, to Q30.
   const Lanes shift = in.offset_shift;
   const EachShift by = each_shift(shift);
   offsets.square = broadcast(0);
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     offsets.x[i] = offset_along(axes.t, points.from_center[i], shift, by);
     offsets.y[i] = offset_along(axes.b, points.from_center[i], shift, by);
     const Lanes square =
@@ -161,13 +166,18 @@ HWY_INLINE HWY_ATTR void find_offsets(const SourceLanes& in, const SourcePoints&
 }
 
 /// Responses of the points to each other: (1, xᵢ, yᵢ)·K·(1, xⱼ, yⱼ).
+template <std::size_t count>
 HWY_INLINE HWY_ATTR void point_responses(const CenterResponse& k, const Offsets& at, Lanes shift,
                                          Lanes (&of)[4][4]) {
-  for (std::size_t i = 0; i < 4; ++i) {
+  if constexpr (count == 1) {
+    of[0][0] = max(lower_part(k.nn), power_of_two(shift));
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
     const Vector own = {broadcast(k_one), at.x[i], at.y[i]};
     const Vector seen = round_shift_low<30>(Vector{
         dot({k.nn, k.nx, k.ny}, own), dot({k.nx, k.xx, k.xy}, own), dot({k.ny, k.xy, k.yy}, own)});
-    for (std::size_t j = i; j < 4; ++j) {
+    for (std::size_t j = i; j < count; ++j) {
       of[i][j] = round_shift_low<30>(dot(seen, {broadcast(k_one), at.x[j], at.y[j]}));
     }
     of[i][i] = max(lower_part(of[i][i]), power_of_two(shift));
@@ -206,21 +216,23 @@ HWY_INLINE HWY_ATTR void find_rolling_mass(const PrepareInput* in, const CenterR
     mass[i] = load(words[i]);
 }
 
-/// The divisors of 2^(shift + 30): A of each point, K_nn, the tangents' determinant.
+/// The divisors of 2^(shift + 30): A of each point, the tangents' determinant.
+template <std::size_t count>
 struct Divisors {
-  Lanes of[5];
+  Lanes of[count];
 };
 
 /// Puts the quotients, rounded down, in the place of their divisors, lane by lane.
-HWY_INLINE HWY_ATTR void divide_each(const PrepareInput* in, Divisors& d) {
-  std::int64_t words[5][k_lanes];
-  for (std::size_t i = 0; i < 5; ++i)
+template <std::size_t count>
+HWY_INLINE HWY_ATTR void divide_each(const PrepareInput* in, Divisors<count>& d) {
+  std::int64_t words[count][k_lanes];
+  for (std::size_t i = 0; i < count; ++i)
     store(d.of[i], words[i]);
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
     for (auto& word : words)
       word[lane] = bounded_quotient(in[lane].shift + 30, word[lane], k_one);
   }
-  for (std::size_t i = 0; i < 5; ++i)
+  for (std::size_t i = 0; i < count; ++i)
     d.of[i] = load(words[i]);
 }
 
@@ -253,10 +265,11 @@ HWY_INLINE HWY_ATTR Lanes quotient_of(Lanes d, Lanes shift, Lanes power) {
 }
 
 /// As `divide_each`, side by side where there are lanes enough and divisors as they should be.
-HWY_INLINE HWY_ATTR void divide(const PrepareInput* in, Lanes shift, Divisors& d) {
+template <std::size_t count>
+HWY_INLINE HWY_ATTR void divide(const PrepareInput* in, Lanes shift, Divisors<count>& d) {
   const Lanes one = power_of_two(shift);
   Lanes least = d.of[0], most = d.of[0];
-  for (std::size_t i = 1; i < 5; ++i) {
+  for (std::size_t i = 1; i < count; ++i) {
     least = min(least, d.of[i]);
     most = max(most, d.of[i]);
   }
@@ -267,10 +280,8 @@ HWY_INLINE HWY_ATTR void divide(const PrepareInput* in, Lanes shift, Divisors& d
 }
 
 /// Radius and twist lane by lane: words go to memory once and come back once.
-template <bool plain>
-HWY_INLINE HWY_ATTR Quotients find_quotients(const PrepareInput* in, Lanes count,
-                                             const EachShift& by, const CenterResponse& k,
-                                             const Offsets& at, const Lanes (&of)[4][4]) {
+HWY_INLINE HWY_ATTR void find_twist(const PrepareInput* in, const CenterResponse& k,
+                                    const Offsets& at, Quotients& q) {
   std::int64_t words[2][k_lanes];
   store(at.square, words[0]);
   store(lower_part(k.ww), words[1]);
@@ -278,33 +289,47 @@ HWY_INLINE HWY_ATTR Quotients find_quotients(const PrepareInput* in, Lanes count
     words[0][lane] = radius_of(words[0][lane]);
     words[1][lane] = twist_mass(in[lane].shift, words[1][lane], words[0][lane]);
   }
+  q.radius = load(words[0]);
+  q.twist = load(words[1]);
+}
+
+template <bool plain, std::size_t points>
+HWY_INLINE HWY_ATTR Quotients find_quotients(const PrepareInput* in, Lanes count,
+                                             const EachShift& by, const CenterResponse& k,
+                                             const Offsets& at, const Lanes (&of)[4][4]) {
+  const Lanes none = broadcast(0);
   const Lanes determinant = by.round(subtract(multiply(k.tt, k.bb), multiply(k.tb, k.tb)));
-  Divisors d{{of[0][0], of[1][1], of[2][2], of[3][3],
-              max(lower_part(determinant), power_of_two(by.shift))}};
+  Divisors<points + 1> d{};
+  for (std::size_t i = 0; i < points; ++i)
+    d.of[i] = of[i][i];
+  d.of[points] = max(lower_part(determinant), power_of_two(by.shift));
   divide(in, by.shift, d);
-  Quotients q{{}, d.of[4], load(words[0]), load(words[1]), {}};
-  for (std::size_t i = 0; i < 4; ++i)
-    q.point[i] = select_less(broadcast(static_cast<std::int64_t>(i)), count, d.of[i], broadcast(0));
+  Quotients q{{none, none, none, none}, d.of[points], none, broadcast(INT32_MAX), {}};
+  for (std::size_t i = 0; i < points; ++i)
+    q.point[i] = select_less(broadcast(static_cast<std::int64_t>(i)), count, d.of[i], none);
+  if constexpr (points != 1) find_twist(in, k, at, q);
   if constexpr (!plain) find_rolling_mass(in, k, q.rolling);
   return q;
 }
 
+template <std::size_t count>
 HWY_INLINE HWY_ATTR void store_points_of(const SourceLanes& in, const SourcePoints& points,
                                          std::size_t lane, const Offsets& at, const Quotients& q,
                                          const Lanes (&of)[4][4], ManifoldBlock& out) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    store(pack(at.x[i], at.y[i]), &out.points[i].offset[lane]);
+  for (std::size_t i = 0; i < k_block_points; ++i)
     store(in.impulse[i], &out.points[i].impulse[lane]);
+  for (std::size_t i = 0; i < count; ++i) {
+    store(pack(at.x[i], at.y[i]), &out.points[i].offset[lane]);
     store(pack(points.separation[i], points.separation[i]), &out.points[i].separation[lane]);
   }
   store(pack(q.point[0], q.point[1]), &out.mass_01[lane]);
   store(pack(q.point[2], q.point[3]), &out.mass_23[lane]);
-  store(pack(of[0][0], of[1][1]), &out.response_00_11[lane]);
-  store(pack(of[2][2], of[3][3]), &out.response_22_33[lane]);
+  store(subtract(power_of_two(in.count), broadcast(1)), &out.used[lane]);
+  if constexpr (count == 2) store(of[0][1], &out.response_01_23[lane]);
+  if constexpr (count <= 2) return;
   store(pack(of[0][1], of[2][3]), &out.response_01_23[lane]);
   store(pack(of[0][2], of[1][3]), &out.response_02_13[lane]);
   store(pack(of[0][3], of[1][2]), &out.response_03_12[lane]);
-  store(in.one_over_count, &out.used[lane]);
 }
 
 /// Impulses along t and b, and torques about them.
@@ -350,13 +375,12 @@ HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t la
   store(lower_part(q.rolling[2]), &out.rolling_mass[1][lane]);
 }
 
-/// As `is_empty`, before the block is filled.
-HWY_INLINE HWY_ATTR bool is_empty(const PrepareInputs& in, std::size_t lane) {
-  if constexpr (k_lanes == k_block_lanes) return false;
-  std::int32_t used = 0;
+/// As of a block, before it is filled.
+HWY_INLINE HWY_ATTR std::int64_t used_points(const PrepareInputs& in, std::size_t lane) {
+  std::int64_t used = 0;
   for (std::size_t i = lane; i < lane + k_lanes; ++i)
-    used |= in.lanes[i].one_over_count;
-  return used == 0;
+    used |= (1 << in.lanes[i].count) - 1;
+  return used;
 }
 
 HWY_INLINE HWY_ATTR bool are_plain(const PrepareInputs& in, std::size_t lane) {
@@ -381,12 +405,13 @@ HWY_INLINE HWY_ATTR bool are_elastic(const PrepareInputs& in, std::size_t lane) 
 }
 
 /// How fast the points come in, and whether they touch.
+template <std::size_t count>
 HWY_INLINE HWY_ATTR void store_approach(const SourceLanes& in, const SourcePoints& source,
                                         const PointLanes& points, bool elastic, std::size_t lane,
                                         ManifoldApproach& approach) {
   const Lanes none = broadcast(0), one = broadcast(1);
   Lanes least = none, nearest = one;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const Lanes number = broadcast(static_cast<std::int64_t>(i));
     const Lanes speed = multiply(points.speed[i], one);
     if (elastic) store(speed, &approach.speed[i][lane]);
@@ -399,75 +424,86 @@ HWY_INLINE HWY_ATTR void store_approach(const SourceLanes& in, const SourcePoint
 }
 
 /// The impulses of the tick before, added up by body.
-template <bool plain>
+template <bool plain, std::size_t count>
 HWY_INLINE HWY_ATTR void start_lanes(const SourceLanes& in, const SourceSides<plain>& sides,
                                      const Axes& axes, const TangentImpulses& tangents,
                                      Lanes radius, const PointLanes& points, BodyPair& bodies) {
-  Impulse p = sum_of(points);
+  Impulse p = sum_of<count>(points);
   p.t = tangents.t;
   p.b = tangents.b;
-  p.about_n = round_shift_low<30>(multiply(in.twist, radius));
+  if constexpr (count != 1) p.about_n = round_shift_low<30>(multiply(in.twist, radius));
   p.about_t = add(p.about_t, tangents.about_t);
   p.about_b = add(p.about_b, tangents.about_b);
-  apply(sides, axes, p, bodies);
+  apply<count != 1 || !plain>(sides, axes, p, bodies);
 }
 
+/// Lanes of a block, and all that preparation reads and writes of them.
 template <bool plain>
-HWY_INLINE HWY_ATTR void prepare_lanes(const PrepareInputs& in, std::size_t lane,
-                                       const BodyInertia* inertias, const std::int64_t* words,
-                                       std::int64_t* warm, ManifoldBlock& block,
-                                       ManifoldApproach& approach) {
-  Lanes load_word, one_over_count;
-  load_operands(pieces_of(&in.lanes[lane]), 12, one_over_count, load_word);
-  const Lanes count = upper_part(load_word);
-  load_operands(pieces_of(&in.lanes[lane]), 20, load_word, one_over_count);
-  const SourcePoints source_points = load_source_points(&in.geometry[lane], count, one_over_count);
-  const SourceLanes source =
-      load_source<plain>(in, lane, inertias, count, one_over_count, source_points);
-  Axes axes{};
-  make_axes(source.normal, source.shift, axes);
-  Offsets offsets{};
-  find_offsets(source, source_points, axes, offsets);
-  const CenterResponse response = center_response<plain>(source, axes);
-  Lanes of[4][4];
-  point_responses(response, offsets, axes.by.shift, of);
-  const Quotients quotients =
-      find_quotients<plain>(&in.lanes[lane], count, axes.by, response, offsets, of);
-  const TangentImpulses tangents = along_tangents<plain>(source, axes);
-  const SourceSides<plain> sides = sides_of<plain>(source);
-  PointLanes points{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    points.x[i] = offsets.x[i];
-    points.y[i] = offsets.y[i];
-    points.impulse[i] = source.impulse[i];
-    points.start[i] = broadcast(0);
+struct PrepareLanes {
+  const PrepareInputs& in;
+  std::size_t lane;
+  const BodyInertia* inertias;
+  const std::int64_t* words;
+  std::int64_t* warm;
+  ManifoldBlock& block;
+  ManifoldApproach& approach;
+
+  template <std::size_t most>
+  HWY_INLINE HWY_ATTR void run() const {
+    Lanes load_word, one_over_count;
+    load_operands(pieces_of(&in.lanes[lane]), 12, one_over_count, load_word);
+    const Lanes count = upper_part(load_word);
+    load_operands(pieces_of(&in.lanes[lane]), 20, load_word, one_over_count);
+    const SourcePoints source_points =
+        load_source_points<most>(&in.geometry[lane], count, one_over_count);
+    const SourceLanes source =
+        load_source<plain>(in, lane, inertias, count, one_over_count, source_points);
+    Axes axes{};
+    make_axes(source.normal, source.shift, axes);
+    Offsets offsets{};
+    find_offsets<most>(source, source_points, axes, offsets);
+    const CenterResponse response = center_response<plain>(source, axes);
+    Lanes of[4][4];
+    point_responses<most>(response, offsets, axes.by.shift, of);
+    const Quotients quotients =
+        find_quotients<plain, most>(&in.lanes[lane], count, axes.by, response, offsets, of);
+    const TangentImpulses tangents = along_tangents<plain>(source, axes);
+    const SourceSides<plain> sides = sides_of<plain>(source);
+    PointLanes points{};
+    for (std::size_t i = 0; i < most; ++i) {
+      points.x[i] = offsets.x[i];
+      points.y[i] = offsets.y[i];
+      points.impulse[i] = source.impulse[i];
+      points.start[i] = broadcast(0);
+    }
+    BodyPair bodies{};
+    bodies.load_from(words, in, lane);
+    find_speeds<most>(axes, read_motion(sides, axes, bodies), points);
+    store_approach<most>(source, source_points, points, are_elastic(in, lane), lane, approach);
+    bodies.load_from(warm, in, lane);
+    start_lanes<plain, most>(source, sides, axes, tangents, quotients.radius, points, bodies);
+    bodies.store_to(warm, in, lane);
+    store_bodies_of(source, sides, lane, axes, block);
+    store_points_of<most>(source, source_points, lane, offsets, quotients, of, block);
+    store_friction_of<plain>(source, lane, axes, tangents, response, quotients, block);
   }
-  BodyPair bodies{};
-  bodies.load_from(words, in, lane);
-  find_speeds(axes, read_motion(sides, axes, bodies), points);
-  store_approach(source, source_points, points, are_elastic(in, lane), lane, approach);
-  bodies.load_from(warm, in, lane);
-  start_lanes(source, sides, axes, tangents, quotients.radius, points, bodies);
-  bodies.store_to(warm, in, lane);
-  store_bodies_of(source, sides, lane, axes, block);
-  store_points_of(source, source_points, lane, offsets, quotients, of, block);
-  store_friction_of<plain>(source, lane, axes, tangents, response, quotients, block);
-}
+};
 
 HWY_ATTR inline void prepare_manifolds(const PrepareInputs& in, const BodyInertia* inertias,
                                        const BodyVelocity* bodies, BodyVelocity* warm,
                                        ManifoldBlock& block, ManifoldApproach& approach) {
   block.body_a = in.body_a;
   block.body_b = in.body_b;
+  const std::int64_t* words = bodies->velocity.data();
+  std::int64_t* all = warm->velocity.data();
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-    if (is_empty(in, lane)) {
+    const std::int64_t used = used_points(in, lane);
+    if (used == 0) {
       leave_empty(lane, block, approach);
     } else if (are_plain(in, lane)) {
-      prepare_lanes<true>(in, lane, inertias, bodies->velocity.data(), warm->velocity.data(), block,
-                          approach);
+      run_for_points(used, PrepareLanes<true>{in, lane, inertias, words, all, block, approach});
     } else {
-      prepare_lanes<false>(in, lane, inertias, bodies->velocity.data(), warm->velocity.data(),
-                           block, approach);
+      run_for_points(used, PrepareLanes<false>{in, lane, inertias, words, all, block, approach});
     }
   }
 }

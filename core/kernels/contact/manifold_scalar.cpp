@@ -13,8 +13,8 @@ constexpr ManifoldKernels k_scalar_manifolds{
 
 void move_separations(const DeltaPose* travel, ManifoldBlock& block, std::size_t lane,
                       const SolverParams& rules) {
-  N_SCALAR_TWIN::move_separations(block, lane, N_SCALAR_TWIN::load_axes(block, lane),
-                                  travel->velocity.data(), rules);
+  N_SCALAR_TWIN::move_separations<k_block_points>(
+      block, lane, N_SCALAR_TWIN::load_axes(block, lane), travel->velocity.data(), rules);
 }
 
 }  // namespace lockstone::lanes

@@ -28,7 +28,14 @@ std::size_t ConstraintLayout::most_blocks(std::size_t contact_capacity) {
   return std::min(contact_capacity, blocks_for(contact_capacity) + k_graph_colors);
 }
 
-void ConstraintLayout::color_contacts(const SolverBodies& bodies, const ContactList& contacts) {
+// Kernels do less where all manifolds of a vector have one point, or no more than two.
+std::size_t ConstraintLayout::kind_of(const Manifold& manifold) {
+  LKS_ASSERT(manifold.count >= 0);
+  return static_cast<std::size_t>(std::clamp(manifold.count, 1, 3) - 1);
+}
+
+void ConstraintLayout::color_contacts(const ContactScene& scene, const SolverBodies& bodies,
+                                      const ContactList& contacts) {
   graph_.clear();
   for (std::uint32_t number = 1; number < bodies.count(); ++number)
     graph_.add_body();
@@ -37,16 +44,22 @@ void ConstraintLayout::color_contacts(const SolverBodies& bodies, const ContactL
   };
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     const bool a = is_pushed(contact.a), b = is_pushed(contact.b);
-    graph_.add(a ? contact.a.number() : 0, a, b ? contact.b.number() : 0, b);
+    graph_.add(a ? contact.a.number() : 0, a, b ? contact.b.number() : 0, b,
+               kind_of(scene.manifolds[contact.manifold]));
   });
 }
 
-void ConstraintLayout::build(const SolverBodies& bodies, const ContactList& contacts,
-                             Parallel& parallel) {
-  color_contacts(bodies, contacts);
+void ConstraintLayout::build(const ContactScene& scene, const SolverBodies& bodies,
+                             const ContactList& contacts, Parallel& parallel) {
+  color_contacts(scene, bodies, contacts);
   block_count_ = 0;
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
     ranges_[color] = {block_count_, blocks_for(graph_.count(color))};
+    auto first = static_cast<std::uint32_t>(block_count_ * k_block_lanes);
+    for (std::size_t kind = 0; kind < k_constraint_kinds; ++kind) {
+      first_lanes_[color][kind] = first;
+      first += graph_.count(color, kind);
+    }
     block_count_ += ranges_[color].count;
   }
   LKS_ASSERT(is_reserved(contacts_, lane_count()));

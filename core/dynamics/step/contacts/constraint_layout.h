@@ -23,8 +23,10 @@ class ConstraintLayout {
   /// Blocks that contacts of all colours can need.
   [[nodiscard]] static std::size_t most_blocks(std::size_t contact_capacity);
 
-  /// Colours the contacts in their order, and gives them their lanes.
-  void build(const SolverBodies& bodies, const ContactList& contacts, Parallel& parallel);
+  /// Colours the contacts in their order, and gives them their lanes: of a colour first those of
+  /// one point, then those of two.
+  void build(const ContactScene& scene, const SolverBodies& bodies, const ContactList& contacts,
+             Parallel& parallel);
 
   /// Blocks of one colour.
   struct Range {
@@ -37,8 +39,7 @@ class ConstraintLayout {
 
   [[nodiscard]] ContactLane lane_of(ContactId contact) const {
     const ConstraintGraph::Place place = graph_.places()[contact.value];
-    return {static_cast<std::uint32_t>(ranges_[place.color].first * lanes::k_block_lanes) +
-            place.rank};
+    return {first_lanes_[place.color][place.kind] + place.rank};
   }
   [[nodiscard]] bool has_contact(ContactLane lane) const {
     return contacts_[lane.value].value != k_no_contact;
@@ -61,10 +62,13 @@ class ConstraintLayout {
  private:
   static constexpr std::uint32_t k_no_contact = 0xffffffff;
 
-  void color_contacts(const SolverBodies& bodies, const ContactList& contacts);
+  [[nodiscard]] static std::size_t kind_of(const Manifold& manifold);
+  void color_contacts(const ContactScene& scene, const SolverBodies& bodies,
+                      const ContactList& contacts);
 
   ConstraintGraph graph_;
   Range ranges_[k_graph_colors + 1];
+  std::uint32_t first_lanes_[k_graph_colors + 1][k_constraint_kinds] = {};
   std::size_t block_count_ = 0;
   std::vector<ContactId> contacts_;  // by lane
 };

@@ -96,8 +96,8 @@ ContactConstraints::ContactConstraints(const TimeStep& step, std::size_t body_ca
 }
 
 // Blocks only grow, within their capacity.
-void ContactConstraints::lay_out(Parallel& parallel) {
-  layout_.build(parts_.bodies, parts_.contacts, parallel);
+void ContactConstraints::lay_out(const ContactScene& scene, Parallel& parallel) {
+  layout_.build(scene, parts_.bodies, parts_.contacts, parallel);
   kernels_ = &lanes::manifold_kernels(layout_.graph().greatest_count());
   points_ = 0;
   has_restitution_ = false;

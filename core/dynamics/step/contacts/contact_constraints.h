@@ -34,7 +34,7 @@ class ContactConstraints {
                                    std::size_t contact_capacity, const Parts& parts);
 
   /// Gives each contact its lane, and makes room for the blocks.
-  void lay_out(Parallel& parallel);
+  void lay_out(const ContactScene& scene, Parallel& parallel);
   [[nodiscard]] const ConstraintLayout& layout() const { return layout_; }
 
   /// Prepares blocks of one colour, counted from its first, once bodies are filled.

@@ -49,6 +49,7 @@ IteratedGainLimit::IteratedGainLimit(std::size_t body_capacity, const Parts& par
 
 void IteratedGainLimit::limit_warm_start(const ContactScene& scene, const ContactRun& run) {
   scene_ = scene;
+  islands_.clear();
   are_pushed_hard_ = false;
   limit(run, Impulses::to_come);
 }
@@ -111,11 +112,18 @@ bool IteratedGainLimit::find_hard_pushes(Impulses which) {
     if (island == 0 || !may_gain(parts_.islands.tally(island), which)) continue;
     if (is_below(motion_of(i, which).given, k_soft_push)) continue;
     LKS_ASSERT(parts_.bodies.constants()[i].is_pushed());
-    if (!any) islands_.assign(parts_.islands.count(), {});
+    if (!any) clear_sums();
     LKS_ASSERT(is_reserved(islands_, parts_.islands.count()));
     islands_[island].is_pushed_hard = any = true;
   }
   return any;
+}
+
+// What an island had at the tick's beginning is summed once.
+void IteratedGainLimit::clear_sums() {
+  islands_.resize(parts_.islands.count());
+  for (Island& island : islands_)
+    island = {.knows_first = island.knows_first, .first = island.knows_first ? island.first : 0};
 }
 
 void IteratedGainLimit::sum_energies(Impulses which) {
@@ -135,8 +143,11 @@ void IteratedGainLimit::sum_energies(Impulses which) {
     add_energy(island.free, twice_energy(velocity, spin, body.inverse_inertia), mass);
     add_energy(island.square, energy_product(gain, gain, spin_gain, surface), mass);
     add_energy(island.linear, 2 * energy_product(velocity, gain, spin, surface), mass);
-    if (which == Impulses::felt) add_first_energy(i, mass, island);
+    if (which == Impulses::felt && !island.knows_first) add_first_energy(i, mass, island);
   }
+  if (which != Impulses::felt) return;
+  for (Island& island : islands_)
+    island.knows_first = island.knows_first || island.is_pushed_hard;
 }
 
 // Of the velocities at the tick's beginning and of those that gravity and forces give in the tick,

@@ -67,6 +67,7 @@ class IteratedGainLimit {
   struct Island {
     BlockFloat unit{};             // inverse mass
     bool is_pushed_hard = false;   // the energies are summed
+    bool knows_first = false;      // of this tick
     std::int64_t first = 0;        // at the tick's beginning, and by its gravity and forces
     std::int64_t free = 0;         // without the impulses
     std::int64_t square = 0;       // of the velocities that they give
@@ -79,6 +80,7 @@ class IteratedGainLimit {
   [[nodiscard]] Motion motion_of(std::uint32_t number, Impulses which) const;
   [[nodiscard]] bool may_gain(const IslandTally& island, Impulses which) const;
   [[nodiscard]] bool find_hard_pushes(Impulses which);
+  void clear_sums();
   void add_first_energy(std::uint32_t number, BlockFloat mass, Island& island) const;
   void sum_energies(Impulses which);
   void choose_shares(Impulses which);
