@@ -82,7 +82,7 @@ class EffortPolicy {
   [[nodiscard]] static bool is_stirred(const IslandTally& island);
 
   // From one rebalance of a stack to the next.
-  static constexpr std::uint64_t k_rebalance_ticks = 64;
+  static constexpr std::uint64_t k_rebalance_ticks = 16;
 
   TimeStep step_;
   std::uint32_t most_island_contacts_;
