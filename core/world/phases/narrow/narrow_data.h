@@ -60,6 +60,12 @@ struct NarrowData {
   return asset == nullptr || asset->polytope() != nullptr;
 }
 
+/// Whether the body is one mesh, which finds the ghosts among its own edges itself.
+[[nodiscard]] inline bool is_one_mesh(const WorldData& world, std::uint32_t body) {
+  const geometry::AssetGeometry* asset = world.cache.asset(body);
+  return asset != nullptr && asset->triangles() == asset;
+}
+
 /// From A's recycling pose to B's.
 [[nodiscard]] inline Vec3<Length> recycling_offset(const BodyRecord& a, const BodyRecord& b) {
   return saturated<Length>(recycling_position(b) - recycling_position(a));

@@ -167,7 +167,8 @@ bool NarrowPhase::look_for_seam(std::uint32_t pair, bool beside_static) {
   const Pair& both = data_.pairs[pair];
   const bool goes_on = beside_static && pair > 0 && data_.pairs[pair - 1].a == both.a;
   if (!has_seams(data_.world, both.b)) return goes_on;
-  if (goes_on || !has_one_piece(data_.world, both.b)) data_.ids.note_seams();
+  const bool is_one = has_one_piece(data_.world, both.b) || is_one_mesh(data_.world, both.b);
+  if (goes_on || !is_one) data_.ids.note_seams();
   return true;
 }
 

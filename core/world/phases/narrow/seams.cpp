@@ -72,6 +72,7 @@ class SeamSearch {
   void judge(SeamContact& contact);
   void drop_ghosts(std::uint32_t pair);
   void move_manifold(std::uint32_t from, std::uint32_t to);
+  [[nodiscard]] bool has_mesh_alone() const;
   [[nodiscard]] bool is_static(std::uint32_t pair) const;
   [[nodiscard]] bool is_passing(std::uint32_t pair) const;
   [[nodiscard]] TouchedPoint point_of(const SeamContact& contact, int point) const;
@@ -102,6 +103,17 @@ void SeamSearch::run() {
     drop_ghosts(i);
 }
 
+// Then no other surface covers a contact.
+bool SeamSearch::has_mesh_alone() const {
+  bool any = false;
+  for (std::uint32_t i = first_; i < end_; ++i) {
+    if (!is_static(i)) continue;
+    if (any || !is_one_mesh(world_, data_.pairs[i].b)) return false;
+    any = true;
+  }
+  return any;
+}
+
 bool SeamSearch::is_static(std::uint32_t pair) const {
   const BodyRecord& other = world_.bodies[data_.pairs[pair].b];
   return has_seams(world_, data_.pairs[pair].b) && !other.is_trigger() &&
@@ -116,6 +128,7 @@ bool SeamSearch::is_passing(std::uint32_t pair) const {
 // Nothing is listed where all have one normal: then none can do harm.
 void SeamSearch::list_contacts() {
   found_.count = 0;
+  if (has_mesh_alone()) return;
   for (std::uint32_t i = first_; i < end_; ++i)
     if (data_.of_pair[i].count > 0 && is_static(i) && !is_passing(i)) list_contacts_of(i);
   const auto is_like_first = [&](const SeamContact& each) {
@@ -195,9 +208,8 @@ bool SeamSearch::is_covered(const SeamContact& contact, const TouchedPoint& at) 
   for (std::uint32_t i = first_; i < end_; ++i) {
     const std::uint32_t other = data_.pairs[i].b;
     if (!is_static(i) || !overlap(near, world_.broad_phase.bounds(other))) continue;
-    const geometry::AssetGeometry* asset = world_.cache.asset(other);
     const bool is_own = other == contact.other;
-    if (is_own && asset != nullptr && asset->triangles() == asset) continue;
+    if (is_own && is_one_mesh(world_, other)) continue;
     if (world_.are_exempt(body_, other) || is_passing(i)) continue;
     const std::uint32_t except = is_own ? part_of(contact) : k_no_part;
     if (covers(world_.placed(other), except, at, world_.bodies[body_].position)) return true;
