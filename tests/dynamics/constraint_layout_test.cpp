@@ -24,7 +24,7 @@ TEST(ConstraintLayout, GivesEachContactALaneOfItsOwnAndFindsItBack) {
   TickScene scene;
   make_row(scene, 40);
   ConstraintLayout layout(TickScene::k_capacity, TickScene::k_capacity);
-  layout.build(scene.bodies, scene.contacts, scene.parallel);
+  layout.build(scene.get(), scene.bodies, scene.contacts, scene.parallel);
   std::set<std::uint32_t> lanes;
   for (std::uint32_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactLane lane = layout.lane_of({i});
@@ -43,7 +43,7 @@ TEST(ConstraintLayout, LetsNoBodyThatMovesOccurTwiceInAColour) {
   TickScene scene;
   make_row(scene, 40);
   ConstraintLayout layout(TickScene::k_capacity, TickScene::k_capacity);
-  layout.build(scene.bodies, scene.contacts, scene.parallel);
+  layout.build(scene.get(), scene.bodies, scene.contacts, scene.parallel);
   for (std::size_t color = 0; color < k_graph_colors; ++color) {
     std::set<std::uint32_t> numbers;
     const auto [first, count] = layout.blocks_of(color);
@@ -63,9 +63,9 @@ TEST(ConstraintLayout, CallsAContactAloneWhereABodyTouchesTheGroundOnly) {
   make_row(alone, 1);
   make_row(two, 2);
   ConstraintLayout layout(TickScene::k_capacity, TickScene::k_capacity);
-  layout.build(alone.bodies, alone.contacts, alone.parallel);
+  layout.build(alone.get(), alone.bodies, alone.contacts, alone.parallel);
   EXPECT_TRUE(layout.is_alone(alone.contacts[{0}]));
-  layout.build(two.bodies, two.contacts, two.parallel);
+  layout.build(two.get(), two.bodies, two.contacts, two.parallel);
   EXPECT_FALSE(layout.is_alone(two.contacts[{0}]));
   EXPECT_FALSE(layout.is_alone(two.contacts[{1}]));
 }

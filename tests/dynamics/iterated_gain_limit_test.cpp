@@ -38,7 +38,7 @@ class GainScene {
     for (std::uint32_t i = 1; i < scene_.bodies.count(); ++i)
       if (scene_.bodies.side(i).is_dynamic())
         scene_.bodies.constants()[i].inverse_mass = block_float(1, 0);
-    layout_.build(scene_.bodies, scene_.contacts, scene_.parallel);
+    layout_.build(scene_.get(), scene_.bodies, scene_.contacts, scene_.parallel);
     blocks_.resize(layout_.lane_count() / lanes::k_block_lanes);
     limit_.limit_warm_start(scene_.get(), run());
   }

@@ -95,8 +95,8 @@ class RollbackRun {
     const StepReport rolled = history_.step();
     count(rolled);
     if (plain.status != rolled.status) return "the status of the step differs";
-    if (plain.asleep_bodies != rolled.asleep_bodies) return "the number of sleepers differs";
     if (plain_.hash().total != rolled_.hash().total) return difference();
+    if (plain.asleep_bodies != rolled.asleep_bodies) return "the number of sleepers differs";
     if (std::string what = difference_of_events(plain_, rolled_); !what.empty()) return what;
     if (const WorldFault fault = rolled_.find_fault())
       return fmt::format("{} does not fit, {}", fault.what, fault.index);

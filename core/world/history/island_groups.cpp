@@ -34,11 +34,23 @@ void IslandGroups::join(std::span<const Pair> pairs) {
     join(pair.a, pair.b);
 }
 
-// Contacts of sleeping bodies may connect bodies whose bounds do not overlap any more.
+// Contacts of sleeping bodies may connect bodies whose bounds do not overlap any more. A kinematic
+// body that slept passes it on: when a joint breaks that held a body to it, all others that are
+// joined to it wake.
 void IslandGroups::join_woken(const WorldData& world, const StateCopy& before) {
   const auto has_woken = [&](std::uint32_t body) { return world.bodies[body].is_awake(); };
   if (std::ranges::none_of(had_slept_, has_woken)) return;
   const NativeState<WorldStores> state = before.open(world.def);
+  BodyRecord body;
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    state.read<BodyStore>(i, body);
+    if (body.moves() && body.is_asleep()) links_[i] = 1;
+  }
+  JointRecord joint;
+  for (std::uint32_t i = 0; i < state.header.joint_limit; ++i) {
+    state.read<JointStore>(i, joint);
+    if (joint.exists()) join(joint.body_a, joint.body_b);
+  }
   ContactRecord contact;
   for (std::uint32_t i = 0; i < state.header.contact_count; ++i) {
     state.read<ContactStore>(i, contact);

@@ -255,6 +255,46 @@ TEST(RollbackHistory, ComputesABodyThatHangsOnAMovedHook) {
     expect_seen(make, when, Teleport{hook, {-8_m, 1_m, -1_m}, {}});
 }
 
+// A guess pushed a ball so hard that its rope to a hook, which is kinematic and sleeps, broke: then
+// the lamp that hangs still on the same hook woke.
+TEST(RollbackHistory, ComputesASleeperThatABrokenJointOfAnotherBodyWoke) {
+  Twins pair(+[] {
+    World world = make_stacks({.body_capacity = 64,
+                               .pair_capacity = 1024,
+                               .contact_capacity = 512,
+                               .joint_capacity = 8,
+                               .sleep_ms = 500});
+    BodyDef hook = test::dynamic_body(Shape::sphere(0.1_m), {}, 9_m, 5_m);
+    hook.motion = MotionType::kinematic;
+    const BodyHandle held = test::add(world, hook);
+    const BodyHandle lamp =
+        test::add(world, test::dynamic_body(Shape::sphere(0.1_m), {}, 6_m, 5_m));
+    const BodyHandle ball =
+        test::add(world, test::dynamic_body(Shape::sphere(0.1_m), 1_m, 9_m, 5_m));
+    test::join(world, JointDef::rope(held, lamp, 3_m));
+    JointDef rope = JointDef::rope(held, ball, 1_m);
+    rope.break_force = Force::from_integer(1000);
+    test::join(world, rope);
+    test::step(world, 120);
+    EXPECT_EQ(world.apply(SleepBody{lamp}), Status::ok);
+    for (std::uint32_t stack = 0; stack < k_stacks; ++stack)
+      EXPECT_EQ(world.apply(WakeBody{top_of(world, stack)}), Status::ok);
+    test::step(world, 2);
+    return world;
+  });
+  const BodyHandle lamp = pair.rolled.body_at(k_stacks * k_boxes + 2);
+  const BodyHandle ball = pair.rolled.body_at(k_stacks * k_boxes + 3);
+  EXPECT_TRUE(pair.rolled.body(lamp).is_asleep);
+  const Bytes start = native(pair.rolled);
+  ASSERT_EQ(pair.rolled.apply(SetVelocity{ball, {500_mps, {}, {}}}), Status::ok);
+  pair.step_rolled(1);
+  EXPECT_FALSE(pair.rolled.body(lamp).is_asleep);
+  ASSERT_EQ(pair.rolled.load(SnapshotKind::native, start), Status::ok);
+  pair.step_both();
+  EXPECT_GT(pair.last.recalled_islands, 0U);
+  pair.step_both(7);
+}
+
 TEST(RollbackHistory, KnowsTheGenerationsOfEmptySlots) {
   Twins pair;
   const Bytes start = native(pair.rolled);
