@@ -255,6 +255,7 @@ struct SolveLanes {
   std::int64_t* words;
   const SolverParams& rules;
   Ahead& ahead;
+  static constexpr bool k_tells_two = true;
 
   template <std::size_t count>
   HWY_INLINE HWY_ATTR void run() const {

@@ -31,12 +31,14 @@ constexpr bool k_tells_plain = HWY_TARGET != HWY_SSE4;
 constexpr bool k_tells_points = k_tells_plain && HWY_TARGET != HWY_WASM;
 #endif
 
-/// Calls `work.run<points>()` for the points of these bits: of one, two, or four.
+/// Calls `work.run<points>()` for the points of these bits: one, two where the work has a text for
+/// them, or four.
 template <class Work>
 HWY_INLINE HWY_ATTR void run_for_points(std::int64_t used, const Work& work) {
   if constexpr (k_tells_points) {
     if (used == 1) return work.template run<1>();
-    if (used <= 3) return work.template run<2>();
+    if constexpr (Work::k_tells_two)
+      if (used <= 3) return work.template run<2>();
   }
   work.template run<k_block_points>();
 }

@@ -7,6 +7,7 @@
 #endif
 
 #include "core/kernels/contact/manifold_block.h"
+#include "core/kernels/contact/manifold_divide_inl.h"
 #include "core/kernels/contact/manifold_input_inl.h"
 #include "core/kernels/contact/manifold_iterate_inl.h"
 #include "core/kernels/contact/manifold_motion_inl.h"
@@ -216,69 +217,6 @@ HWY_INLINE HWY_ATTR void find_rolling_mass(const PrepareInput* in, const CenterR
     mass[i] = load(words[i]);
 }
 
-/// The divisors of 2^(shift + 30): A of each point, the tangents' determinant.
-template <std::size_t count>
-struct Divisors {
-  Lanes of[count];
-};
-
-/// Puts the quotients, rounded down, in the place of their divisors, lane by lane.
-template <std::size_t count>
-HWY_INLINE HWY_ATTR void divide_each(const PrepareInput* in, Divisors<count>& d) {
-  std::int64_t words[count][k_lanes];
-  for (std::size_t i = 0; i < count; ++i)
-    store(d.of[i], words[i]);
-  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-    for (auto& word : words)
-      word[lane] = bounded_quotient(in[lane].shift + 30, word[lane], k_one);
-  }
-  for (std::size_t i = 0; i < count; ++i)
-    d.of[i] = load(words[i]);
-}
-
-template <int by>
-HWY_INLINE HWY_ATTR void raise_below_2_30(Lanes& x, Lanes& lead) {
-  const Lanes bound = broadcast(std::int64_t{1} << (31 - by));
-  lead = select_less(x, bound, add(lead, broadcast(by)), lead);
-  x = select_less(x, bound, shift_left<by>(x), x);
-}
-
-/// ⌊2^(shift + 30) / d⌋ for 2^16 ≤ 2^shift ≤ d < 2^31. A line and three of Newton's steps give
-/// r ≈ 2^61 / D for D = d · 2^lead from 2^30 to 2^31: less by 1/17 of it, then by (1/17)^8.
-/// Truncation makes r less, too: by 3 in all, and so the quotient by 2.
-HWY_INLINE HWY_ATTR Lanes quotient_of(Lanes d, Lanes shift, Lanes power) {
-  const Lanes none = broadcast(0), one = broadcast(1);
-  Lanes high = d, lead = none;
-  raise_below_2_30<8>(high, lead);
-  raise_below_2_30<4>(high, lead);
-  raise_below_2_30<2>(high, lead);
-  raise_below_2_30<1>(high, lead);
-  Lanes r = subtract(broadcast(k_one * 48 / 17),
-                     shift_right<31>(multiply(high, broadcast(k_one * 32 / 17))));
-  for (int i = 0; i < 3; ++i) {
-    const Lanes factor = subtract(broadcast(INT32_MAX), shift_right<31>(multiply(high, r)));
-    r = shift_right<30>(multiply(r, factor));
-  }
-  const Lanes q = shift_right_each(r, subtract(subtract(broadcast(31), shift), lead));
-  const Lanes left = subtract(power, multiply(q, d));
-  return add(q, add(select_less(left, d, none, one), select_less(left, add(d, d), none, one)));
-}
-
-/// As `divide_each`, side by side where there are lanes enough and divisors as they should be.
-template <std::size_t count>
-HWY_INLINE HWY_ATTR void divide(const PrepareInput* in, Lanes shift, Divisors<count>& d) {
-  const Lanes one = power_of_two(shift);
-  Lanes least = d.of[0], most = d.of[0];
-  for (std::size_t i = 1; i < count; ++i) {
-    least = min(least, d.of[i]);
-    most = max(most, d.of[i]);
-  }
-  if (k_lanes < 4 || any_less(least, one) || any_less(broadcast(INT32_MAX), most))
-    return divide_each(in, d);
-  for (Lanes& each : d.of)
-    each = quotient_of(each, shift, shift_left<30>(one));
-}
-
 /// Radius and twist lane by lane: words go to memory once and come back once.
 HWY_INLINE HWY_ATTR void find_twist(const PrepareInput* in, const CenterResponse& k,
                                     const Offsets& at, Quotients& q) {
@@ -325,8 +263,7 @@ HWY_INLINE HWY_ATTR void store_points_of(const SourceLanes& in, const SourcePoin
   store(pack(q.point[0], q.point[1]), &out.mass_01[lane]);
   store(pack(q.point[2], q.point[3]), &out.mass_23[lane]);
   store(subtract(power_of_two(in.count), broadcast(1)), &out.used[lane]);
-  if constexpr (count == 2) store(of[0][1], &out.response_01_23[lane]);
-  if constexpr (count <= 2) return;
+  if constexpr (count == 1) return;
   store(pack(of[0][1], of[2][3]), &out.response_01_23[lane]);
   store(pack(of[0][2], of[1][3]), &out.response_02_13[lane]);
   store(pack(of[0][3], of[1][2]), &out.response_03_12[lane]);
@@ -447,6 +384,7 @@ struct PrepareLanes {
   std::int64_t* warm;
   ManifoldBlock& block;
   ManifoldApproach& approach;
+  static constexpr bool k_tells_two = false;  ///< most time goes into bodies
 
   template <std::size_t most>
   HWY_INLINE HWY_ATTR void run() const {

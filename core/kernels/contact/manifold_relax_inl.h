@@ -181,6 +181,7 @@ struct RelaxLanes {
   const std::int64_t* travel;
   const SolverParams& rules;
   Ahead& ahead;
+  static constexpr bool k_tells_two = true;
 
   template <std::size_t count>
   HWY_INLINE HWY_ATTR void run() const {

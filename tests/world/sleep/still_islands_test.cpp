@@ -299,7 +299,7 @@ TEST(StillIslands, HaveBoundsThatFitTheirVelocityOnceTheyStop) {
     test::add(world, box);
   }
   std::uint32_t still = 0;
-  for (int tick = 0; tick < 60; ++tick) {
+  for (int tick = 0; tick < 30; ++tick) {
     still = world.step().still_bodies;
     const WorldFault fault = world.find_fault();
     EXPECT_FALSE(fault) << fault.what << " " << fault.index << ", tick " << tick;

@@ -119,7 +119,7 @@ bool IteratedGainLimit::find_hard_pushes(Impulses which) {
   return any;
 }
 
-// What an island had at the tick's beginning is summed once.
+// The energy that an island had at the tick's beginning is summed once a tick.
 void IteratedGainLimit::clear_sums() {
   islands_.resize(parts_.islands.count());
   for (Island& island : islands_)
