@@ -146,6 +146,7 @@ static_assert(offsetof(ManifoldBlock, axes) == sizeof(BlockWord) &&
 // Of points beyond a manifold's count blocks tell impulses and masses.
 void forget_points(const PrepareInput& source, std::size_t lane, ManifoldBlock& block,
                    ManifoldApproach& approach) {
+  if (source.count == 1) block.coupling[1][lane] = block.coupling[2][lane] = 0;
   for (auto i = static_cast<std::size_t>(source.count); i < k_block_points; ++i) {
     block.points[i].offset[lane] = block.points[i].separation[lane] = approach.speed[i][lane] = 0;
     if (i == 1) block.response_01_23[lane] &= ~std::int64_t{0xffffffff};

@@ -73,7 +73,9 @@ struct alignas(64) ManifoldBlock {
   BlockWord share{};        // low: αB, Q30, high: coefficient of friction, Q30
 
   // Read by iterations with friction. Rows t, b and the twist about n at the radius ρ.
-  BlockWord coupling[3]{};      // low: of t, high: of b, to impulses (1, x, y), Q(shift)
+  // Low: of t, high: of b, to impulses (1, x, y), Q(shift); those to x and y of one point are
+  // meaningless.
+  BlockWord coupling[3]{};
   BlockWord tangent_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of the tangents' response, Q30
   BlockWord twist_row[2]{};     // of the twist: to (1, x), Q(shift); to y, and its mass, Q24
   BlockWord twist_response{};   // low: of t, high: of b, to a twist impulse, Q(shift)

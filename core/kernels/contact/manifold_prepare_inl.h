@@ -283,23 +283,36 @@ HWY_INLINE HWY_ATTR TangentImpulses along_tangents(const SourceLanes& in, const 
           round_shift_low<30>(dot(axes.b, in.rolling))};
 }
 
-template <bool plain>
+/// The couplings and the row of the twist. A single point is the centre, about which nothing turns.
+template <std::size_t count>
+HWY_INLINE HWY_ATTR void store_twist_of(std::size_t lane, const CenterResponse& k,
+                                        const Quotients& q, ManifoldBlock& out) {
+  store(pack(k.tn, k.bn), &out.coupling[0][lane]);
+  Vector twist = {q.radius, q.radius, q.radius};
+  Lanes to_t = q.radius, to_b = q.radius;
+  if constexpr (count != 1) {
+    store(pack(k.tx, k.bx), &out.coupling[1][lane]);
+    store(pack(k.ty, k.by), &out.coupling[2][lane]);
+    twist = round_shift_low<30>(multiply(Vector{k.nw, k.xw, k.yw}, q.radius));
+    to_t = round_shift_low<30>(multiply(k.tw, q.radius));
+    to_b = round_shift_low<30>(multiply(k.bw, q.radius));
+  }
+  store(pack(twist.x, twist.y), &out.twist_row[0][lane]);
+  store(pack(twist.z, q.twist), &out.twist_row[1][lane]);
+  store(pack(to_t, to_b), &out.twist_response[lane]);
+}
+
+template <bool plain, std::size_t count>
 HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t lane,
                                            const Axes& axes, const TangentImpulses& tangents,
                                            const CenterResponse& k, const Quotients& q,
                                            ManifoldBlock& out) {
   const EachShift& by = axes.by;
-  store_vector(pack(Vector{k.tn, k.tx, k.ty}, Vector{k.bn, k.bx, k.by}), out.coupling, lane);
   store(pack(by.round(multiply(k.bb, q.determinant)), by.round(multiply(k.tt, q.determinant))),
         &out.tangent_mass[0][lane]);
   store(lower_part(subtract(broadcast(0), by.round(multiply(k.tb, q.determinant)))),
         &out.tangent_mass[1][lane]);
-  const Vector twist = round_shift_low<30>(multiply(Vector{k.nw, k.xw, k.yw}, q.radius));
-  const Lanes to_t = round_shift_low<30>(multiply(k.tw, q.radius));
-  const Lanes to_b = round_shift_low<30>(multiply(k.bw, q.radius));
-  store(pack(twist.x, twist.y), &out.twist_row[0][lane]);
-  store(pack(twist.z, q.twist), &out.twist_row[1][lane]);
-  store(pack(to_t, to_b), &out.twist_response[lane]);
+  store_twist_of<count>(lane, k, q, out);
   store(pack(tangents.t, tangents.b), &out.friction[lane]);
   store(pack(in.twist, q.radius), &out.twist[lane]);
   if constexpr (plain) return;
@@ -423,7 +436,7 @@ struct PrepareLanes {
     bodies.store_to(warm, in, lane);
     store_bodies_of(source, sides, lane, axes, block);
     store_points_of<most>(source, source_points, lane, offsets, quotients, of, block);
-    store_friction_of<plain>(source, lane, axes, tangents, response, quotients, block);
+    store_friction_of<plain, most>(source, lane, axes, tangents, response, quotients, block);
   }
 };
 
