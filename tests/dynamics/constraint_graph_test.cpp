@@ -68,6 +68,29 @@ TEST(ConstraintGraph, RanksEachColorInTheOrderOfAdding) {
     EXPECT_EQ(graph.count(c), next[c]);
 }
 
+TEST(ConstraintGraph, RanksEachKindOfAColorByItselfAndTheOverflowInOneOrder) {
+  const std::vector<Constraint> constraints = random_constraints(50, 1200);
+  const ConstraintGraph plain = color(constraints, 50);
+  ConstraintGraph graph(50, constraints.size());
+  add_bodies(graph, 50);
+  for (std::size_t i = 0; i < constraints.size(); ++i)
+    graph.add(constraints[i].a, constraints[i].a != 0, constraints[i].b, constraints[i].b != 0,
+              i % k_constraint_kinds);
+  ASSERT_GT(graph.count(k_overflow_color), 1U);
+  std::uint32_t next[k_graph_colors + 1][k_constraint_kinds] = {};
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const Place& place = graph.places()[i];
+    EXPECT_EQ(place.color, plain.places()[i].color);
+    EXPECT_EQ(place.kind, place.color == k_overflow_color ? 0 : i % k_constraint_kinds);
+    EXPECT_EQ(place.rank, next[place.color][place.kind]++);
+  }
+  for (std::size_t c = 0; c <= k_graph_colors; ++c) {
+    EXPECT_EQ(graph.count(c), plain.count(c));
+    for (std::size_t kind = 0; kind < k_constraint_kinds; ++kind)
+      EXPECT_EQ(graph.count(c, kind), next[c][kind]);
+  }
+}
+
 TEST(ConstraintGraph, ForgetsEarlierConstraints) {
   const std::vector<Constraint> constraints = random_constraints(50, 300);
   const ConstraintGraph fresh = color(constraints, 50);

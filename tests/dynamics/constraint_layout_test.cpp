@@ -1,5 +1,6 @@
 #include "core/dynamics/step/contacts/constraint_layout.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -54,6 +55,28 @@ TEST(ConstraintLayout, LetsNoBodyThatMovesOccurTwiceInAColour) {
       const ContactRef& contact = scene.contacts[layout.contact_at(lane)];
       for (const BodyRef body : {contact.a, contact.b})
         EXPECT_TRUE(body.is_standing() || numbers.insert(body.number()).second);
+    }
+  }
+}
+
+// Kernels do less where the manifolds of a vector have few points.
+TEST(ConstraintLayout, OrdersTheContactsOfAColourByTheirNumberOfPoints) {
+  TickScene scene;
+  make_row(scene, 40);
+  for (std::uint32_t i = 0; i < scene.contacts.size(); ++i)
+    scene.manifold(i).count = static_cast<int>(1 + i * 7 % 4);
+  ConstraintLayout layout(TickScene::k_capacity, TickScene::k_capacity);
+  layout.build(scene.get(), scene.bodies, scene.contacts, scene.parallel);
+  for (std::size_t color = 0; color < k_graph_colors; ++color) {
+    int points = 1;
+    const auto [first, count] = layout.blocks_of(color);
+    for (std::size_t i = first * lanes::k_block_lanes; i < (first + count) * lanes::k_block_lanes;
+         ++i) {
+      const ContactLane lane{static_cast<std::uint32_t>(i)};
+      if (!layout.has_contact(lane)) continue;
+      const int own = std::min(scene.manifold(layout.contact_at(lane).value).count, 3);
+      EXPECT_GE(own, points);
+      points = own;
     }
   }
 }

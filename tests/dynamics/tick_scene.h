@@ -38,6 +38,7 @@ class TickScene {
     return record;
   }
   ContactSurface& surface(std::size_t contact) { return surfaces_[contact]; }
+  Manifold& manifold(std::size_t contact) { return manifolds_[contact]; }
   void add_joint(std::uint32_t a, std::uint32_t b) { links_.push_back({0, a, b}); }
 
   [[nodiscard]] ContactScene get() const {
