@@ -88,14 +88,19 @@ export class Picture {
 
   /** An object for every body, where the body is. */
   follow(view) {
+    // Outlines take memory, which may grow: arrays that were read before are empty then.
+    for (const id of [...view.bodies]) {
+      if (id === 0n || this.objects.has(id)) continue;
+      const object = objectOf(new Body(view.world, id));
+      this.scene.add(object);
+      this.objects.set(id, object);
+    }
     const { bodies, positions, orientations } = view;
     const gone = new Set(this.objects.keys());
     bodies.forEach((id, row) => {
       if (id === 0n) return;
       gone.delete(id);
-      let object = this.objects.get(id);
-      if (!object) this.scene.add((object = objectOf(new Body(view.world, id))));
-      this.objects.set(id, object);
+      const object = this.objects.get(id);
       object.position.fromArray(positions, 3 * row);
       object.quaternion.fromArray(orientations, 4 * row);
     });
