@@ -23,7 +23,7 @@ void IslandGroups::begin(const WorldData& world) {
     const BodyRecord& record = world.bodies[body];
     links_[body] = links_others(record) ? 1 : 0;
     if (record.is_awake()) were_awake_.push_back(body);
-    if (record.is_dynamic() && record.is_asleep()) had_slept_.push_back(body);
+    if (record.moves() && record.is_asleep()) had_slept_.push_back(body);
   }
   for (const JointLink& link : world.joint_graph.links())
     join(link.body_a, link.body_b);
@@ -38,14 +38,13 @@ void IslandGroups::join(std::span<const Pair> pairs) {
 // body that slept passes it on: when a joint breaks that held a body to it, all others that are
 // joined to it wake.
 void IslandGroups::join_woken(const WorldData& world, const StateCopy& before) {
-  const auto has_woken = [&](std::uint32_t body) { return world.bodies[body].is_awake(); };
+  const auto has_woken = [&](std::uint32_t body) {
+    return world.bodies[body].is_dynamic() && world.bodies[body].is_awake();
+  };
   if (std::ranges::none_of(had_slept_, has_woken)) return;
   const NativeState<WorldStores> state = before.open(world.def);
-  BodyRecord body;
-  for (std::uint32_t i = 0; i < count_; ++i) {
-    state.read<BodyStore>(i, body);
-    if (body.moves() && body.is_asleep()) links_[i] = 1;
-  }
+  for (const std::uint32_t body : had_slept_)
+    links_[body] = 1;
   JointRecord joint;
   for (std::uint32_t i = 0; i < state.header.joint_limit; ++i) {
     state.read<JointStore>(i, joint);

@@ -57,7 +57,7 @@ class IslandGroups {
   std::vector<std::uint32_t> all_;         // 0, 1, 2, …
   std::vector<std::uint8_t> links_;        // by body
   std::vector<std::uint32_t> were_awake_;  // when the tick began
-  std::vector<std::uint32_t> had_slept_;   // dynamic ones
+  std::vector<std::uint32_t> had_slept_;   // that move
   std::vector<std::uint8_t> is_counted_;   // by group
   std::uint32_t count_ = 0;                // of bodies
 };
