@@ -247,6 +247,28 @@ HWY_INLINE HWY_ATTR Impulse solve_normals(ManifoldBlock& block, std::size_t lane
   return sum_of<count>(points);
 }
 
+/// An iteration over blocks: `Work<plain>` for the lanes at hand, with the records of bodies that
+/// it reads. Memory is asked for ahead.
+template <template <bool> class Work, class... Words>
+HWY_INLINE HWY_ATTR void iterate(ManifoldBlock* blocks, std::size_t count,
+                                 const SolverParams& rules, Words*... words) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const ManifoldBlock& next = block_at(blocks, i + 1, count);
+    Ahead(&block_at(blocks, i + 2, count)).ask(1);
+    Ahead ahead(&next.axes);
+    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+      const std::int64_t used = used_points(blocks[i], lane);
+      if (used == 0) continue;
+      (ask_for_bodies(words, next, lane), ...);
+      if (are_plain(blocks[i], lane)) {
+        run_for_points(used, Work<true>{blocks[i], lane, words..., rules, ahead});
+      } else {
+        run_for_points(used, Work<false>{blocks[i], lane, words..., rules, ahead});
+      }
+    }
+  }
+}
+
 /// Lanes of a block, and all that an iteration without friction reads of them.
 template <bool plain>
 struct SolveLanes {
@@ -275,22 +297,7 @@ struct SolveLanes {
 
 HWY_ATTR inline void solve_manifolds(BodyVelocity* bodies, ManifoldBlock* blocks, std::size_t count,
                                      const SolverParams& rules) {
-  std::int64_t* words = bodies->velocity.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const ManifoldBlock& next = block_at(blocks, i + 1, count);
-    Ahead(&block_at(blocks, i + 2, count)).ask(1);
-    Ahead ahead(&next.axes);
-    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      const std::int64_t used = used_points(blocks[i], lane);
-      if (used == 0) continue;
-      ask_for_bodies(words, next, lane);
-      if (are_plain(blocks[i], lane)) {
-        run_for_points(used, SolveLanes<true>{blocks[i], lane, words, rules, ahead});
-      } else {
-        run_for_points(used, SolveLanes<false>{blocks[i], lane, words, rules, ahead});
-      }
-    }
-  }
+  iterate<SolveLanes>(blocks, count, rules, bodies->velocity.data());
 }
 
 }  // namespace HWY_NAMESPACE

@@ -208,24 +208,7 @@ struct RelaxLanes {
 HWY_ATTR inline void relax_manifolds(BodyVelocity* bodies, const DeltaPose* travel,
                                      ManifoldBlock* blocks, std::size_t count,
                                      const SolverParams& rules) {
-  std::int64_t* words = bodies->velocity.data();
-  const std::int64_t* way = travel->velocity.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const ManifoldBlock& next = block_at(blocks, i + 1, count);
-    Ahead(&block_at(blocks, i + 2, count)).ask(1);
-    Ahead ahead(&next.axes);
-    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      const std::int64_t used = used_points(blocks[i], lane);
-      if (used == 0) continue;
-      ask_for_bodies(words, next, lane);
-      ask_for_bodies(way, next, lane);
-      if (are_plain(blocks[i], lane)) {
-        run_for_points(used, RelaxLanes<true>{blocks[i], lane, words, way, rules, ahead});
-      } else {
-        run_for_points(used, RelaxLanes<false>{blocks[i], lane, words, way, rules, ahead});
-      }
-    }
-  }
+  iterate<RelaxLanes>(blocks, count, rules, bodies->velocity.data(), travel->velocity.data());
 }
 
 }  // namespace HWY_NAMESPACE
