@@ -3,7 +3,7 @@
 usage: run.py COMPILER INCLUDE [--control]
 """
 
-import pathlib
+import os
 import re
 import subprocess
 import sys
@@ -74,24 +74,45 @@ PAIRS = [
 ]
 
 
-def errors(compiler, include, code):
+HERE = re.compile(r"^wrong:(\d+):")
+
+
+def compile_code(compiler, include, code):
+    """The compiler's messages; empty when the code compiles."""
     front = (WORLD if NEEDS_WORLD.search(code) else "") + (GAME if NEEDS_GAME.search(code) else "") + FRONT
     done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-I", include, "-x", "c++", "-"],
-                          input=front + code, capture_output=True, text=True)
+                          input=front + code, capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"})
     return "" if done.returncode == 0 else done.stderr or "failed"
+
+
+def in_namespaces(lines):
+    return "".join(f"namespace n{i} {{ {line} }}\n" for i, line in enumerate(lines))
+
+
+def compile_each(compiler, include, lines, messages):
+    """The messages for each line, from one translation unit where its own error is found there; a line without
+    one is compiled by itself."""
+    text = compile_code(compiler, include, '#line 1 "wrong"\n' + in_namespaces(lines))
+    if not text:
+        return [""] * len(lines)
+    found = [""] * len(lines)
+    for report in text.splitlines():
+        place = HERE.match(report)
+        if place and " error: " in report:
+            found[int(place[1]) - 1] += report + "\n"
+    return [own if re.search(message, own) else compile_code(compiler, include, line)
+            for line, own, message in zip(lines, found, messages)]
 
 
 def main():
     compiler, include = sys.argv[1:3]
-    # Rights first: all in one translation unit each in a namespace of its own.
-    rights = "\n".join(f"namespace n{i} {{ {right} }}" for i, (_, right, _) in enumerate(PAIRS))
+    rights, messages = [right for _, right, _ in PAIRS], [message for _, _, message in PAIRS]
     faults = []
-    text = errors(compiler, include, rights)
+    text = compile_code(compiler, include, in_namespaces(rights))
     if text:
         faults.append("correct code does not compile:\n" + text)
-    wrongs = [right for _, right, _ in PAIRS] if "--control" in sys.argv else [w for w, _, _ in PAIRS]
-    for wrong, (_, _, message) in zip(wrongs, PAIRS):
-        text = errors(compiler, include, wrong)
+    wrongs = rights if "--control" in sys.argv else [wrong for wrong, _, _ in PAIRS]
+    for wrong, message, text in zip(wrongs, messages, compile_each(compiler, include, wrongs, messages)):
         if not text:
             faults.append("compiles: " + wrong)
         elif not re.search(message, text):
