@@ -48,6 +48,12 @@ class General(Case):
                 xml.etree.ElementTree.parse(svg)
             self.assertIn("| house | lockstone |", (path / "page.md").read_text(encoding="utf-8"))
 
+    def test_names_the_settings_of_a_seed_that_fails(self):
+        text = self.expect(DIFFERENT, "general", "--alone", "--iterated", "--substeps", 2, "--family", "tall-stack",
+                           "--seeds", 1)
+        command = re.search(r"^failed: lockstone (bench general --iterated --substeps 2 --replay tall-stack:\d)$", text, re.M)
+        self.assertIn("FAILED", self.expect(DIFFERENT, *command[1].split()[1:], "--alone"))
+
     def test_refuses_what_is_no_seed(self):
         for seed in ("house", "house:", "house:x", "no:1"):
             self.expect(USAGE, "general", "--replay", seed)

@@ -56,8 +56,9 @@ struct GeneralMaker {
   std::unique_ptr<GeneralEngine> (*make)(const GeneralScene& scene, int substeps) = nullptr;
 };
 
-/// Ours.
+/// Ours; and with contacts that are only iterated, as in a world of 0 `converged_contacts`.
 [[nodiscard]] GeneralMaker lockstone_general();
+[[nodiscard]] GeneralMaker lockstone_iterated();
 
 /// Those that the project knows of, in this build or not.
 [[nodiscard]] std::span<const GeneralMaker> general_peers();

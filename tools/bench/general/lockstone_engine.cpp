@@ -123,8 +123,9 @@ void make_room(WorldDef& def, std::uint32_t bodies) {
   def.contact_capacity = 12 * bodies;
 }
 
-WorldDef world_of(const GeneralScene& scene, int substeps) {
+WorldDef world_of(const GeneralScene& scene, int substeps, bool converges) {
   WorldDef def;
+  if (!converges) def.converged_contacts = 0;
   make_room(def, static_cast<std::uint32_t>(scene.bodies.size()));
   def.joint_capacity = static_cast<std::uint32_t>(scene.joints.size()) + 1;
   if (!scene.may_sleep) def.sleep_ms = 0;
@@ -207,10 +208,10 @@ JointDef joint_of(const GeneralJoint& joint, BodyHandle a, BodyHandle b) {
 
 class LockstoneGeneral final : public GeneralEngine {
  public:
-  LockstoneGeneral(const GeneralScene& scene, int substeps)
+  LockstoneGeneral(const GeneralScene& scene, int substeps, bool converges)
       : scene_(scene),
         assets_(assets_of(scene)),
-        world_(std::move(World::create(world_of(scene, substeps), assets_.set).value())),
+        world_(std::move(World::create(world_of(scene, substeps, converges), assets_.set).value())),
         bodies_(scene.bodies.size()) {
     change(changes_of(scene).front());
   }
@@ -279,14 +280,19 @@ class LockstoneGeneral final : public GeneralEngine {
   bool had_room_ = true;
 };
 
+template <bool converges>
 std::unique_ptr<GeneralEngine> make(const GeneralScene& scene, int substeps) {
-  return std::make_unique<LockstoneGeneral>(scene, substeps);
+  return std::make_unique<LockstoneGeneral>(scene, substeps, converges);
 }
 
 }  // namespace
 
 GeneralMaker lockstone_general() {
-  return {"lockstone", "", make};
+  return {"lockstone", "", make<true>};
+}
+
+GeneralMaker lockstone_iterated() {
+  return {"lockstone", "", make<false>};
 }
 
 }  // namespace lockstone::bench

@@ -29,7 +29,8 @@ void add_engine(std::vector<bench::BesideEngine>& engines, const bench::GeneralM
 
 bench::BesideOptions options_of(const BesideRequest& request) {
   bench::BesideOptions options;
-  add_engine(options.engines, bench::lockstone_general());
+  add_engine(options.engines,
+             request.iterated ? bench::lockstone_iterated() : bench::lockstone_general());
   for (const bench::GeneralMaker& peer : bench::general_peers()) {
     if (!request.peers.empty() && std::ranges::count(request.peers, peer.name) == 0) continue;
     if (peer.make != nullptr)
@@ -86,6 +87,7 @@ std::string command_of(const BesideRequest& request) {
   if (request.islands) command += " --islands";
   if (!request.kinds.empty()) command += fmt::format(" {}", fmt::join(request.kinds, ","));
   if (request.islands) command += fmt::format(" --most {}", request.most);
+  if (request.iterated) command += " --iterated";
   if (!request.chart.empty()) command += fmt::format(" --chart {}", request.chart);
   return command + fmt::format(" --page {} --force", request.page);
 }
@@ -137,6 +139,8 @@ void add_beside_options(CLI::App& command, BesideRequest& request) {
   command.add_option("--most", request.most, "Bodies of the largest such world: a power of ten")
       ->check(CLI::Range(k_fewest_bodies, 1'000'000))
       ->capture_default_str();
+  command.add_flag("--iterated", request.iterated,
+                   "Only iterate our contacts, as with 0 converged_contacts");
   command.add_option("--page", request.page, "Also write the comparison into a file *.md");
   command.add_option("--chart", request.chart,
                      "Also draw the ratios of islands over their number into a file *.svg");

@@ -17,7 +17,8 @@ struct BesideRequest {
   bool scenes = false;
   bool islands = false;
   std::vector<std::string> kinds;  ///< of islands; none: all
-  int most = 10'000;  ///< bodies of the largest world of islands
+  int most = 10'000;               ///< bodies of the largest world of islands
+  bool iterated = false;           ///< our contacts, as with 0 `converged_contacts`
   std::string page, chart;
 
   // Of the command itself, when it runs.

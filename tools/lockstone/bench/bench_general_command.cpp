@@ -26,10 +26,15 @@ struct BenchGeneralOptions {
   int substeps = 4;
   int cap = bench::k_no_cap;
   bool alone = false, json = false, list = false, shrink = false, islands = false;
+  bool iterated = false;
 };
 
+bench::GeneralMaker ours(const BenchGeneralOptions& options) {
+  return options.iterated ? bench::lockstone_iterated() : bench::lockstone_general();
+}
+
 std::vector<bench::GeneralMaker> engines_of(const BenchGeneralOptions& options) {
-  std::vector<bench::GeneralMaker> engines{bench::lockstone_general()};
+  std::vector<bench::GeneralMaker> engines{ours(options)};
   for (const bench::GeneralMaker& peer : bench::general_peers()) {
     const bool wanted =
         options.peers.empty() ? !options.alone : std::ranges::count(options.peers, peer.name) > 0;
@@ -62,8 +67,7 @@ Seed seed_of(const std::string& text) {
 }
 
 int shrink(const BenchGeneralOptions& options, const Seed& seed) {
-  const int cap =
-      bench::shrink_general(bench::lockstone_general(), *seed.family, seed.seed, options.substeps);
+  const int cap = bench::shrink_general(ours(options), *seed.family, seed.seed, options.substeps);
   if (cap == bench::k_no_cap) {
     fmt::print("{} does not fail\n", options.replay);
     return k_ok;
@@ -105,9 +109,16 @@ int replay(const BenchGeneralOptions& options) {
   const bool failed = play_scene(options, scene);
   if (!options.svg.empty() &&
       !write_text_file({options.svg, options.force},
-                       bench::draw_general(bench::lockstone_general(), scene, options.substeps)))
+                       bench::draw_general(ours(options), scene, options.substeps)))
     return k_unavailable;
   return failed ? k_different : k_ok;
+}
+
+// The options that change how our engine goes, where they are not the usual ones.
+std::string settings_of(const BenchGeneralOptions& options) {
+  std::string settings = options.iterated ? " --iterated" : "";
+  if (options.substeps != 4) settings += fmt::format(" --substeps {}", options.substeps);
+  return settings;
 }
 
 // That makes the same page again, in the place of this one.
@@ -117,7 +128,7 @@ std::string command_of(const BenchGeneralOptions& options) {
     command += fmt::format(" --family {}", fmt::join(options.families, ","));
   if (options.alone) command += " --alone";
   if (!options.peers.empty()) command += fmt::format(" --peers {}", fmt::join(options.peers, ","));
-  if (options.substeps != 4) command += fmt::format(" --substeps {}", options.substeps);
+  command += settings_of(options);
   command += fmt::format(" --first-seed {} --seeds {} --page {}", options.first_seed, options.seeds,
                          options.page);
   if (!options.contacts.empty()) command += fmt::format(" --contacts {}", options.contacts);
@@ -147,7 +158,8 @@ int measure(const BenchGeneralOptions& options) {
   if (options.json) {
     print_general_json(runs, options.first_seed);
   } else {
-    fmt::print("{}{}", general_table(runs), general_failures(runs, options.first_seed));
+    fmt::print("{}{}", general_table(runs),
+               general_failures(runs, options.first_seed, settings_of(options)));
   }
   const std::string contacts_file = std::filesystem::path(options.contacts).filename().string();
   bool written = options.page.empty() ||
@@ -212,6 +224,8 @@ void add_bench_general_command(CLI::App& bench, int& exit_code) {
   command->add_option("--substeps", options->substeps, "Substeps of each engine")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
+  command->add_flag("--iterated", options->iterated,
+                    "Only iterate our contacts, as with 0 converged_contacts");
   command->add_option("--peers", options->peers, "Names; all in this build when left out")
       ->delimiter(',');
   command->add_flag("--alone", options->alone, "Leave out the other engines");

@@ -103,14 +103,15 @@ std::string general_table(std::span<const FamilyRun> runs) {
   return text;
 }
 
-std::string general_failures(std::span<const FamilyRun> runs, std::uint64_t first_seed) {
+std::string general_failures(std::span<const FamilyRun> runs, std::uint64_t first_seed,
+                             std::string_view settings) {
   std::string text;
   for (const FamilyRun& run : runs) {
     if (run.engine != "lockstone") continue;
     for (std::size_t i = 0; i < run.figures.size(); ++i) {
       if (run.figures[i].has_value() && run.figures[i]->failed)
-        text += fmt::format("failed: lockstone bench general --replay {}:{}\n", run.family->name,
-                            first_seed + i);
+        text += fmt::format("failed: lockstone bench general{} --replay {}:{}\n", settings,
+                            run.family->name, first_seed + i);
     }
   }
   return text;

@@ -12,9 +12,10 @@ namespace lockstone::tool {
 /// A line a family and engine.
 [[nodiscard]] std::string general_table(std::span<const bench::FamilyRun> runs);
 
-/// How each of our failing seeds is played again, a line each.
+/// How each of our failing seeds is played again, a line each; `settings` are options of the
+/// command.
 [[nodiscard]] std::string general_failures(std::span<const bench::FamilyRun> runs,
-                                           std::uint64_t first_seed);
+                                           std::uint64_t first_seed, std::string_view settings);
 
 /// The table as Markdown, with a head that describes it. `contacts`: the name of a chart beside it;
 /// empty: none.
