@@ -141,23 +141,32 @@ export class Bodies {
     this.floor.map = grid;
   }
 
-  /** Fills all meshes. `list` is the list `bodies` of the world. */
-  update(world: World, ids: BigUint64Array, list: Float32Array, positions: Float32Array, orientations: Float32Array, paint: Painter): void {
+  /**
+   * Fills all meshes. `list` is the list `bodies` of the world. Returns whether it knew all outlines. If not it has read them, which takes memory; that may have
+   * grown, and arrays of the engine are empty then: the caller asks for them again, and calls this again.
+   */
+  update(world: World, ids: BigUint64Array, list: Float32Array, positions: Float32Array, orientations: Float32Array, paint: Painter): boolean {
     for (const batch of this.batches.values()) batch.begin();
+    const unknown: { id: bigint; mark: number }[] = [];
     const color = new three.Color(), pose = new three.Matrix4(), whole = new three.Matrix4();
     const place = new three.Vector3(), turn = new three.Quaternion(), one = new three.Vector3(1, 1, 1);
     for (let at = 0; at < list.length; at += STRIDE.bodies) {
       const [row, state, island, mark] = [list[at]!, list[at + 1]!, list[at + 2]!, list[at + 3]!];
       if (!ids[row]) continue;
+      const parts = this.outlines.get(outlineKey(ids[row]!, mark));
+      if (!parts) {
+        unknown.push({ id: ids[row]!, mark });
+        continue;
+      }
       place.fromArray(positions, 3 * row);
       turn.fromArray(orientations, 4 * row);
       pose.compose(place, turn, one);
       paint(row, state, island, color);
-      for (const { form, local } of this.partsOf(world, ids[row]!, mark)) {
-        this.batch(form, state).add(whole.multiplyMatrices(pose, local), color);
-      }
+      for (const { form, local } of parts) this.batch(form, state).add(whole.multiplyMatrices(pose, local), color);
     }
     for (const batch of this.batches.values()) batch.finish();
+    for (const { id, mark } of unknown) this.read(world, id, mark);
+    return unknown.length === 0;
   }
 
   /** How many meshes the last update filled. */
@@ -185,17 +194,11 @@ export class Bodies {
     return batch;
   }
 
-  // A body keeps its outline as long as its shape has this mark.
-  private partsOf(world: World, id: bigint, mark: number): Part[] {
-    const key = `${id} ${mark}`;
-    let parts = this.outlines.get(key);
-    if (!parts) {
-      const outline = outlineOf(new Body(world, id));
-      parts = outline.parts.flatMap((part) => (part.kind === c.LKS_CAPSULE ? this.capsuleOf(part) : [this.partOf(part)]));
-      if (outline.triangles.length > 0) parts.push(this.trianglesOf(outline.triangles, mark));
-      this.outlines.set(key, parts);
-    }
-    return parts;
+  private read(world: World, id: bigint, mark: number): void {
+    const outline = outlineOf(new Body(world, id));
+    const parts = outline.parts.flatMap((part) => (part.kind === c.LKS_CAPSULE ? this.capsuleOf(part) : [this.partOf(part)]));
+    if (outline.triangles.length > 0) parts.push(this.trianglesOf(outline.triangles, mark));
+    this.outlines.set(outlineKey(id, mark), parts);
   }
 
   // Of a tube and two caps, the same for capsules of all sizes: a form of its own for each would be drawn by itself.
@@ -234,6 +237,11 @@ export class Bodies {
     });
     return { form, local: new three.Matrix4() };
   }
+}
+
+// A body keeps its outline as long as its shape has this mark.
+function outlineKey(id: bigint, mark: number): string {
+  return `${id} ${mark}`;
 }
 
 function gridTexture(): three.Texture {

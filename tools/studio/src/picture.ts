@@ -1,7 +1,7 @@
 // The picture: a renderer, a camera, and one diorama or two beside each other.
 import * as three from "three";
 import { Bodies, type Painter } from "./bodies.js";
-import { Drawn, type Lists, STRIDE, State } from "./engine.js";
+import { Drawn, STRIDE, State } from "./engine.js";
 import { FIXED } from "./paint.js";
 import { OVERLAYS, Overlays, type Pin } from "./overlays.js";
 import { SOFTWARE } from "./software.js";
@@ -24,8 +24,6 @@ export class Diorama {
   private readonly overlays = new Overlays();
   private readonly sky = new three.HemisphereLight(0xffffff, 0x8899aa, 1.5);
   private readonly sun = new three.DirectionalLight(0xffffff, 2.2);
-  /** What was drawn last. */
-  lists: Lists | undefined;
 
   /** `pins`: places to point at, of the present tick. */
   constructor(readonly stage: Stage, readonly paint: Painter, private readonly pins: () => readonly Pin[] = () => [], private readonly ghost?: Ghost) {
@@ -38,13 +36,14 @@ export class Diorama {
   update(fraction: number, shown: ReadonlySet<string>, markSize: number, pulled: three.Vector3[] | null): void {
     const { stage } = this;
     const wanted = OVERLAYS.reduce((bits, name) => (shown.has(name) ? bits | LISTS[name]! : bits), Drawn.bodies as number);
-    const { positions, orientations } = stage.view.at(fraction);
-    const lists = stage.engine.draw(stage.world, wanted);
-    const visible = shown.has("triggers") ? lists.bodies : withoutTriggers(lists.bodies);
-    this.bodies.update(stage.world, stage.view.bodies, visible, positions, orientations, this.paint);
-    // The bodies' outlines may have taken memory: the lists are asked for again.
-    this.lists = stage.engine.draw(stage.world, wanted);
-    this.overlays.update(this.lists, markSize, pulled, this.pins());
+    const fill = () => {
+      const { positions, orientations } = stage.view.at(fraction);
+      const lists = stage.engine.draw(stage.world, wanted);
+      const visible = shown.has("triggers") ? lists.bodies : withoutTriggers(lists.bodies);
+      return this.bodies.update(stage.world, stage.view.bodies, visible, positions, orientations, this.paint) ? lists : undefined;
+    };
+    const lists = fill() ?? fill(); // again once all outlines are known
+    this.overlays.update(lists!, markSize, pulled, this.pins());
     if (this.ghost) this.updateGhosts(this.ghost, fraction);
   }
 
@@ -54,13 +53,16 @@ export class Diorama {
   }
 
   private updateGhosts({ stage, has }: Ghost, fraction: number): void {
-    const { positions, orientations } = stage.view.at(fraction);
     const list = stage.engine.draw(stage.world, Drawn.bodies).bodies;
     const clear: number[] = [];
     for (let at = 0; at < list.length; at += STRIDE.bodies) {
       if (has(list[at]!)) clear.push(list[at]!, State.trigger, list[at + 2]!, list[at + 3]!);
     }
-    this.ghosts.update(stage.world, stage.view.bodies, new Float32Array(clear), positions, orientations, this.paint);
+    const fill = () => {
+      const { positions, orientations } = stage.view.at(fraction);
+      return this.ghosts.update(stage.world, stage.view.bodies, new Float32Array(clear), positions, orientations, this.paint);
+    };
+    if (!fill()) fill();
   }
 
   light(target: three.Vector3, radius: number, background: three.Color, floor: three.Color, dark: boolean): void {

@@ -229,7 +229,7 @@ test("the strip of hashes has a colour for each tick, green below it where the t
   assert.equal(await page.textContent("#hash-verified"), "✓ computed again to tick 31");
 })));
 
-test("a picture of every tick is saved, none left out", { skip }, () => withStudio([], (address) => withPage(`${address}#scene=wall&tick=20`, async (page) => {
+test("a picture of every tick is saved, none left out", { skip }, () => withStudio([], (address) => withPage(`${address}#scene=rolling&tick=20`, async (page) => {
   const { press } = person(page);
   await page.waitForFunction(() => document.getElementById("tick-text").textContent === "tick 20");
   await page.focus("#picture");
@@ -250,7 +250,7 @@ test("a picture of every tick is saved, none left out", { skip }, () => withStud
     assert.equal(png.subarray(1, 4).toString(), "PNG", name);
     assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], box);
   }
-  assert.ok(new Set(files.map(([, hex]) => hex)).size > files.length / 2, "the wall moves");
+  assert.ok(new Set(files.map(([, hex]) => hex)).size > files.length / 2, "the ball rolls");
 })));
 
 test("the page fits a phone", { skip }, () => withStudio([], (address) => withPage(address, async (page) => {
