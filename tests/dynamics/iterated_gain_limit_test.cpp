@@ -9,6 +9,7 @@
 
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/contact/block_words.h"
+#include "core/math/wide/scalar_lanes.h"
 #include "tests/dynamics/tick_scene.h"
 
 namespace lockstone {
@@ -60,6 +61,10 @@ class GainScene {
     const ContactLane place = layout_.lane_of({contact});
     return blocks_[place.block()].points[0].impulse[place.lane()];
   }
+  std::int64_t& twist(std::uint32_t contact) {
+    const ContactLane place = layout_.lane_of({contact});
+    return blocks_[place.block()].twist[place.lane()];
+  }
 
  private:
   ContactRun run() {
@@ -83,6 +88,22 @@ TEST(IteratedGainLimit, TakesImpulsesBackThatGiveAnIslandEnergy) {
   scene.limit();
   EXPECT_EQ(scene.speed(1), 0);
   EXPECT_EQ(scene.impulse(0), impulse_word(800, 0));  // the largest of the tick stays
+}
+
+// The high operand of a twist is the contact's radius, 0 of a single point: it stays where a
+// negative twist ends as 0.
+TEST(IteratedGainLimit, KeepsTheRadiusOfATwist) {
+  for (const std::int64_t radius : {0, 3}) {
+    for (const std::int64_t twist : {-7, 0, 7}) {
+      GainScene scene(k_static, 1);
+      scene.begin();
+      scene.move(1, 0, 10);
+      scene.twist(0) = lanes::scalar::pack(twist, radius);
+      scene.limit();
+      EXPECT_EQ(high_word(scene.twist(0)), radius) << twist;
+      EXPECT_EQ(low_word(scene.twist(0)), 0) << twist;
+    }
+  }
 }
 
 // Several contacts of 1,024 m/s each.

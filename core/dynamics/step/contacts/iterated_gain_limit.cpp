@@ -32,11 +32,11 @@ void scale_impulses(lanes::ManifoldBlock& block, std::size_t lane, std::int32_t 
   for (lanes::ManifoldBlock::Point& point : block.points) {
     std::int64_t& word = point.impulse[lane];
     const std::int64_t both = share_of_both(word, share);
-    word = is_beginning ? both : word - low_word(word) + low_word(both);
+    word = is_beginning ? both : lanes::scalar::with_upper_of(both, word);
   }
   block.friction[lane] = share_of_both(block.friction[lane], share);
-  const std::int64_t twist = share_of_both(block.twist[lane], share);
-  block.twist[lane] = block.twist[lane] - low_word(block.twist[lane]) + low_word(twist);
+  std::int64_t& twist = block.twist[lane];  // its high operand is the radius
+  twist = lanes::scalar::with_upper_of(share_of_both(twist, share), twist);
   if (!block.is_plain(lane)) block.rolling[lane] = share_of_both(block.rolling[lane], share);
 }
 
