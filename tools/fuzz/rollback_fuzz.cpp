@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -10,8 +9,7 @@
 #include <lockstone/rollback_history.h>
 
 #include "tools/fuzz/random_features.h"
-#include "tools/fuzz/random_scene.h"
-#include "tools/fuzz/random_yard.h"
+#include "tools/fuzz/random_world.h"
 #include "tools/support/for_blocks.h"
 
 namespace lockstone::fuzz {
@@ -24,32 +22,9 @@ using arena::Random;
 constexpr std::uint32_t k_history_ticks = 8;
 constexpr std::uint32_t k_most_ahead = 10;
 
-// A yard or a scene of extremes.
-class Source {
- public:
-  Source(std::uint64_t seed, std::uint64_t index) {
-    if (index % 2 == 0)
-      yard_.emplace(seed, index);
-    else
-      scene_.emplace(seed, index);
-  }
-
-  [[nodiscard]] World make() const {
-    return yard_ ? yard_->make() : scene_->make(BroadPhaseKind::tree);
-  }
-  void drive(World& world) const { yard_ ? yard_->drive(world) : scene_->drive(world); }
-  [[nodiscard]] Command other_command(const World& world, Random& random) const {
-    return yard_ ? RandomYard::push(world, random) : random_command(world, random);
-  }
-
- private:
-  std::optional<RandomYard> yard_;
-  std::optional<RandomScene> scene_;
-};
-
 class RollbackRun {
  public:
-  RollbackRun(const Source& source, std::uint64_t seed, RollbackFuzzReport& report)
+  RollbackRun(const RandomWorld& source, std::uint64_t seed, RollbackFuzzReport& report)
       : source_(source),
         random_(seed),
         report_(report),
@@ -120,7 +95,7 @@ class RollbackRun {
     return "the state differs: " + plain_.describe_difference(here, there).to_line();
   }
 
-  const Source& source_;
+  const RandomWorld& source_;
   Random random_;
   RollbackFuzzReport& report_;
   World plain_, rolled_;
@@ -130,7 +105,7 @@ class RollbackRun {
 
 void run_world(const RollbackFuzzOptions& options, std::uint64_t index,
                RollbackFuzzReport& report) {
-  const Source source(options.seed, index);
+  const RandomWorld source(options.seed, index);
   RollbackRun run(source, mix(options.seed ^ mix(index)), report);
   ++report.worlds;
   for (std::uint32_t round = 0; round < options.rounds; ++round) {

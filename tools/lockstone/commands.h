@@ -26,6 +26,7 @@ void add_studio_command(CLI::App& app, Tool& tool);
 void add_fuzz_pairs_command(CLI::App& app, int& exit_code);
 void add_fuzz_rollback_command(CLI::App& app, int& exit_code);
 void add_fuzz_scene_command(CLI::App& app, int& exit_code);
+void add_fuzz_vectors_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
 void add_asset_command(CLI::App& app, int& exit_code);
 

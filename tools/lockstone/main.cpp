@@ -46,6 +46,7 @@ std::vector<CommandGroup> all_commands() {
   faults.commands.push_back(add_plain<add_fuzz_pairs_command>);
   faults.commands.push_back(add_plain<add_fuzz_scene_command>);
   faults.commands.push_back(add_plain<add_fuzz_rollback_command>);
+  faults.commands.push_back(add_plain<add_fuzz_vectors_command>);
   return {scenes, matches, logs, {"Assets", {add_plain<add_asset_command>}}, faults};
 }
 

@@ -18,5 +18,8 @@ void add_fuzz_scene_command(CLI::App& app, int& exit_code) {
 void add_fuzz_rollback_command(CLI::App& app, int& exit_code) {
   add_absent_command(app, exit_code, "fuzz-rollback", k_no_bench);
 }
+void add_fuzz_vectors_command(CLI::App& app, int& exit_code) {
+  add_absent_command(app, exit_code, "fuzz-vectors", k_no_bench);
+}
 
 }  // namespace lockstone::tool
