@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -145,7 +146,7 @@ TEST_P(BothBroadPhases, FindEveryPairOnceAndSortedWhateverHappens) {
   constexpr std::uint32_t k_count = 60;
   Model model(k_count);
   BroadPhase broad_phase(GetParam(), k_count, 1 << 12);
-  for (int tick = 0; tick < 3000; ++tick) {
+  for (int tick = 0; tick < test::share_of(3000); ++tick) {
     // Calm and busy times, and now and then all at once.
     const std::int64_t moving_percent = tick % 500 == 0 ? 100 : tick / 100 % 3 * 20 + 1;
     if (random.between(0, 400) == 0) {

@@ -120,7 +120,7 @@ TEST(DeepOverlap, SeparatesAtABoundedSpeed) {
     def.gravity_scale = {};
     boxes.push_back(test::add(world, def));
   }
-  test::step(world, 120);
+  test::step(world, test::share_of(120));
   for (const BodyHandle box : boxes) {
     const Vec3<Velocity> v = world.velocity(box);
     for (int axis = 0; axis < 3; ++axis)

@@ -18,6 +18,7 @@
 #include "core/geometry/shapes/tapered_ends.h"
 #include "core/math/roots.h"
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -254,7 +255,7 @@ Values rounded_below(const Shape& shape, const Vec3<Unit>& normal, long double d
 // Shares of the whole within a hundredth, and centres within a hundredth of the size.
 TEST(PartBelow, OfARoundedBoxIsNearlyThatOfItsPoints) {
   Random random(9);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < test::share_of(20); ++i) {
     const Length x = random_size(random), y = random_size(random), z = random_size(random);
     const Shape shape = Shape::rounded_box(x, y, z, random_size(random));
     const Vec3<Unit> normal = random_direction(random);

@@ -1,6 +1,7 @@
 // Half-spaces against everything, and rays against half-spaces and polytopes.
 #include "core/geometry/dispatch/raycast.h"
 #include "tests/geometry/pairs/polytope_scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -218,7 +219,7 @@ struct PolytopeRay {
 TEST(RayPolytope, HitsWherePlanesInLongDoubleSaySo) {
   Dice dice;
   int hits = 0;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < test::share_of(5000); ++i) {
     const PolytopeRay ray(dice);
     hits += ray.found.hit ? 1 : 0;
     if (ray.small.hit && !(ray.is_flat() && ray.ends_at_the_surface())) {
@@ -228,12 +229,12 @@ TEST(RayPolytope, HitsWherePlanesInLongDoubleSaySo) {
       ASSERT_FALSE(ray.found.hit);
     }
   }
-  EXPECT_GT(hits, 1000);
+  EXPECT_GT(hits, test::share_of(1000));
 }
 
 TEST(RayPolytope, EntersASolidBetweenASmallerAndALargerOne) {
   Dice dice;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < test::share_of(5000); ++i) {
     const PolytopeRay ray(dice);
     if (!ray.found.hit || ray.is_flat()) continue;
     const auto fraction = static_cast<double>(real(ray.found.fraction));
@@ -247,7 +248,7 @@ TEST(RayPolytope, EntersASolidBetweenASmallerAndALargerOne) {
 
 TEST(RayPolytope, MeetsAFlatOneAtItsPlane) {
   Dice dice;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < test::share_of(5000); ++i) {
     const PolytopeRay ray(dice);
     if (!ray.found.hit || !ray.is_flat()) continue;
     const Real rise = std::fabs(dot(ray.way, ray.solid.normals[0]));

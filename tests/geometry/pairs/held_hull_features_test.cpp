@@ -7,6 +7,7 @@
 
 #include "core/geometry/contact/manifold/contact_choice.h"
 #include "tests/geometry/pairs/polytope_scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -87,7 +88,7 @@ struct MovedHulls {
 TEST(HeldHullFeatures, OfAManifoldGiveThatManifold) {
   Dice dice;
   const Solids solids;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < test::share_of(3000); ++round) {
     const MovedHulls hulls(dice, solids);
     const HeldFeatures found = held_by(hulls.pair.collide(hulls.held));
     if (found.count == 0) continue;
@@ -98,7 +99,7 @@ TEST(HeldHullFeatures, OfAManifoldGiveThatManifold) {
 TEST(HeldHullFeatures, CostNoMoreOverlapThanTheirMargins) {
   Dice dice;
   const Solids solids;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < test::share_of(3000); ++round) {
     const MovedHulls hulls(dice, solids);
     const Manifold plain = hulls.pair.collide();
     if (!geometry::touches(plain)) continue;

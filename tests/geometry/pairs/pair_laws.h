@@ -10,6 +10,7 @@
 #include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/distance/motion/shape_cast.h"
 #include "tests/geometry/pairs/real_shapes.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 
@@ -130,7 +131,7 @@ template <class Truth>
 void expect_rays_end_at_surfaces(RandomShape random_shape) {
   Dice dice;
   int hits = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < share_of(6000); ++i) {
     const Shape shape = random_shape(dice, 0.05, 20);
     const Truth truth(shape);
     const Mat3 rotation = to_matrix(dice.orientation());
@@ -157,7 +158,7 @@ void expect_rays_end_at_surfaces(RandomShape random_shape) {
     ASSERT_LE(truth.reach(normal) - dot(normal, start + step * last), slack * 20)
         << describe(shape);
   }
-  EXPECT_GT(hits, 1500);
+  EXPECT_GT(hits, share_of(1500));
 }
 
 }  // namespace lockstone::test

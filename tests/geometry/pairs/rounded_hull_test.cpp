@@ -15,6 +15,7 @@
 #include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/submerged/submerged.h"
 #include "tests/geometry/scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -140,7 +141,7 @@ PosedShape posed_hull(const HullPtr& hull, const Shape& shape, const Mat3& rotat
 
 TEST(RoundedHulls, HaveTheMassOfTheirFinestFacets) {
   Dice dice;
-  for (int run = 0; run < 12; ++run) {
+  for (int run = 0; run < test::share_of(12); ++run) {
     const HullPtr hull = random_rounded_hull(dice, static_cast<int>(dice.between(7, 16)), 1,
                                              dice.uniform(0.05, 1.5));
     if (hull == nullptr) continue;

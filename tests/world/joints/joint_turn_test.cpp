@@ -8,6 +8,7 @@
 #include <lockstone/testing/floating.h>
 
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 #include "tests/world/joints/joint_fixture.h"
 
 namespace lockstone {
@@ -101,7 +102,7 @@ TEST(TurnSprings, SettleOnAnyTargetFromAnyPose) {
   constexpr JointKind k_kinds[] = {JointKind::ball, JointKind::six_axis, JointKind::motor};
   const Shape shapes[] = {Shape::sphere(0.2_m), Shape::box(0.3_m, 0.1_m, 0.2_m),
                           Shape::capsule(0.4_m, 0.05_m)};
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < test::share_of(300); ++i) {
     const Quat from = any_orientation(random);
     const Vec3<Angle> to = any_turn(random);
     Turner turner(k_kinds[i % 3], shapes[i / 3 % 3], from, to, 0.7_r);
