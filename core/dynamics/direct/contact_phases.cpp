@@ -92,28 +92,36 @@ void begin_rows(const PreparedRows& prepared, std::int64_t weight, ProximalConta
 
 // Joints may fasten bodies where they overlap, and then no impulses part them: they would grow
 // without limit. The deeper a point overlaps, the softer its row, and the more of its impulse it
-// forgets.
-void soften(std::int64_t overlap, const ProximalRow& row, std::size_t i, Problem& problem) {
+// forgets. A row keeps its compliance while it is within an eighth: with another one the factor at
+// hand is that of another matrix. Returns whether the compliance changes.
+bool soften(std::int64_t overlap, const ProximalRow& row, std::size_t i, Problem& problem) {
   constexpr std::int64_t k_hard = (std::int64_t{1} << 24) / 4000, k_soft = 16 * k_hard;  // m, Q24
   constexpr std::int64_t k_most_give = k_whole >> 3;
   constexpr std::int64_t k_width = k_soft - k_hard;
   const std::int64_t beyond = std::clamp<std::int64_t>(overlap - k_hard, 0, k_width);
-  LKS_ASSERT(row.give > 0);
+  const std::int64_t kept = problem.give[i];
+  LKS_ASSERT(row.give > 0 && kept > 0);
   const std::int64_t more = std::max<std::int64_t>(k_most_give - row.give, 0);
-  set_give(row.give + raw::round_divide(more * beyond, k_width), i, problem);
+  const std::int64_t give = row.give + raw::round_divide(more * beyond, k_width);
+  const bool changes = 8 * magnitude(give - kept) > static_cast<std::uint64_t>(kept);
+  if (changes) set_give(give, i, problem);
   problem.held_centre[i] -= raw::round_divide(problem.held[i] / 2, k_width) * beyond;
+  return changes;
 }
 
-// Sets the speeds at which separations close, or overlap is pushed out.
-void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& problem,
+// Sets the speeds at which separations close, or overlap is pushed out. Returns whether a row's
+// compliance changes.
+bool set_bias(const ContactRun& run, const ProximalContact& contact, Problem& problem,
               bool pushes_out, bool is_jointed) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   LKS_ASSERT(contact.points <= lanes::k_block_points);
+  bool gives_change = false;
   for (std::size_t i = 0; i < contact.points; ++i) {
     const RowScale& to_speed = contact.all[i].to_speed;
     const std::int64_t apart = high_word(block.points[i].separation[lane]) + run.params.overlap;
-    if (is_jointed && pushes_out) soften(-apart, contact.all[i], i, problem);
+    if (is_jointed && pushes_out)
+      gives_change = soften(-apart, contact.all[i], i, problem) || gives_change;
     if (apart > 0) {
       problem.bias[i] =
           within_row(to_speed.times(apart * run.params.substep_rate, 24 - k_row_unit_bits));
@@ -126,6 +134,7 @@ void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& pr
       problem.bias[i] = 0;
     }
   }
+  return gives_change;
 }
 
 // Adds a contact's gain of impulse in the phase to its rows. Returns whether there is any; `moved`:
@@ -287,8 +296,12 @@ void return_leaks(const IslandView& island) {
 
 void set_biases(const ContactRun& run, const IslandView& island, bool pushes_out) {
   LKS_ASSERT(island.problems.size() == island.contacts.size() + island.joints.size());
+  bool gives_change = false;
+  const bool is_jointed = !island.joints.empty();
   for (std::size_t c = 0; c < island.contacts.size(); ++c)
-    set_bias(run, island.contacts[c], island.problems[c], pushes_out, !island.joints.empty());
+    gives_change = set_bias(run, island.contacts[c], island.problems[c], pushes_out, is_jointed) ||
+                   gives_change;
+  if (gives_change) island.state.is_factored = island.state.was_factored = false;
 }
 
 void loosen(const IslandView& island) {

@@ -20,7 +20,8 @@ void begin_substep(const IslandView& island);
 /// alone, has none.
 void return_leaks(const IslandView& island);
 
-/// Sets the speeds at which separations close, or overlap is pushed out.
+/// Sets the speeds at which separations close, or overlap is pushed out. Where contacts beside
+/// joints become softer or harder, the factor at hand is of no use any more.
 void set_biases(const ContactRun& run, const IslandView& island, bool pushes_out);
 
 /// An impact need not be solved as finely as rest: nothing is solved below a part of the fastest

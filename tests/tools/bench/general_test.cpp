@@ -178,6 +178,12 @@ TEST(GeneralRun, GainsNoEnergyWhereThinPlatesHavePassedEachOther) {
     EXPECT_LT(play("plates", seed).gain, k_gain_bound) << seed;
 }
 
+// Loads that lie still on a deck, deeper than contacts beside joints are stiff. The factor was kept
+// while these became softer: one load was thrown up at 5 m/s.
+TEST(GeneralRun, ThrowsNoLoadFromADeckWhoseContactsSoften) {
+  EXPECT_LT(play("drawbridge", 9100004).gain, 0.0001);
+}
+
 // A light link in a loop that holds heavy bodies by long levers: it gave way by 1.5 m, turned at
 // 700 rad/s within a substep, and regained a fifth of the energy from a factor of earlier rows.
 TEST(GeneralRun, HoldsHeavyBodiesByALightLinkOfALoop) {
