@@ -104,7 +104,8 @@ void drive_vehicles(World& world, std::uint64_t seed) {
     return Length::from_raw(static_cast<std::int32_t>(log_between(random, 1LL << 17, 1LL << 21)));
   };
   const Length length = half(), track = half();
-  command.def = make_car(length, track, -half(), Torque::from_integer(random.between(0, 5000)));
+  const Torque torque = Torque::from_integer(random.between(0, 5000));
+  command.def = make_car(length, track, -half(), torque);
   for (Axle& axle : command.def->axles) {
     axle.radius = max(half(), Length::from_ratio(1, 20));
     axle.frequency = Number::from_ratio(random.between(2, 100), 10);

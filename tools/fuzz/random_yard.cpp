@@ -38,7 +38,8 @@ void add_stack(World& world, const Place& at, Random& random) {
 void add_pile(World& world, const Place& at, Random& random) {
   const int count = random.between(2, 10);
   for (int i = 0; i < count; ++i) {
-    BodyDef body = scenes::loose(scenes::random_shape(random), above(at, random, 600 + 500 * i));
+    const Place place = above(at, random, 600 + 500 * i);
+    BodyDef body = scenes::loose(scenes::random_shape(random), place);
     body.material.restitution = Coefficient::from_ratio(random.between(0, 2), 4);
     body.is_bullet = chance(random, 8);
     scenes::add(world, body);
