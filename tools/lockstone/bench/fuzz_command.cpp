@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 
 #include "tools/fuzz/fuzz_run.h"
 #include "tools/fuzz/pair_checks.h"
+#include "tools/lockstone/bench/fuzz_options.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
@@ -151,15 +152,10 @@ std::string check_kind(const std::string& name) {
 
 void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<FuzzPairsOptions>();
-  options->run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App* command = app.add_subcommand(
       "fuzz-pairs",
       "Random pairs of shapes: contacts, distances, depths, casts against each other");
-  command->add_option("--count", options->run.count, "Number of pairs")->capture_default_str();
-  command->add_option("--seed", options->run.seed, "Seed of the pairs")->capture_default_str();
-  command->add_option("--first", options->run.first, "Index to begin with")->capture_default_str();
-  command->add_option("--threads", options->run.threads, "The result does not depend on them")
-      ->check(CLI::Range(1, 1024));
+  add_fuzz_options(*command, options->run, options->json, "pairs");
   command
       ->add_option("--kinds", options->kinds,
                    "Sphere, capsule, box, hull, triangle, half-space, cylinder, cone, "
@@ -170,7 +166,6 @@ void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
   command->add_flag("--special", options->special,
                     "Only special positions: coaxial, across, nearly parallel, edge on edge, "
                     "point on face");
-  command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

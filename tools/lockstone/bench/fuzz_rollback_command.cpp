@@ -1,11 +1,10 @@
-#include <algorithm>
 #include <memory>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tools/fuzz/rollback_fuzz.h"
+#include "tools/lockstone/bench/fuzz_options.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/json_text.h"
 
@@ -61,17 +60,10 @@ int run(const FuzzRollbackOptions& options) {
 
 void add_fuzz_rollback_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<FuzzRollbackOptions>();
-  fuzz::RollbackFuzzOptions& measure = options->run;
-  measure.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App* command = app.add_subcommand(
       "fuzz-rollback", "Random rollbacks with a history, compared with worlds that never go back");
-  command->add_option("--count", measure.count, "Number of worlds")->capture_default_str();
-  command->add_option("--rounds", measure.rounds, "Rollbacks of each")->capture_default_str();
-  command->add_option("--seed", measure.seed, "Seed of the worlds")->capture_default_str();
-  command->add_option("--first", measure.first, "Index to begin with")->capture_default_str();
-  command->add_option("--threads", measure.threads, "The result does not depend on them")
-      ->check(CLI::Range(1, 1024));
-  command->add_flag("--json", options->json, "Print JSON");
+  add_fuzz_options(*command, options->run, options->json, "worlds");
+  command->add_option("--rounds", options->run.rounds, "Rollbacks of each")->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -1,13 +1,13 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tools/fuzz/random_scene.h"
 #include "tools/fuzz/scene_fuzz.h"
+#include "tools/lockstone/bench/fuzz_options.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/json_text.h"
 
@@ -71,17 +71,10 @@ int run(const FuzzSceneOptions& options) {
 
 void add_fuzz_scene_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<FuzzSceneOptions>();
-  fuzz::SceneFuzzOptions& measure = options->run;
-  measure.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App* command = app.add_subcommand(
       "fuzz-scene", "Random scenes, each run in two ways that must give the same states");
-  command->add_option("--count", measure.count, "Number of scenes")->capture_default_str();
-  command->add_option("--seed", measure.seed, "Seed of the scenes")->capture_default_str();
-  command->add_option("--first", measure.first, "Index to begin with")->capture_default_str();
-  command->add_option("--ticks", measure.ticks, "Ticks of each scene")->capture_default_str();
-  command->add_option("--threads", measure.threads, "The result does not depend on them")
-      ->check(CLI::Range(1, 1024));
-  command->add_flag("--json", options->json, "Print JSON");
+  add_fuzz_options(*command, options->run, options->json, "scenes");
+  command->add_option("--ticks", options->run.ticks, "Ticks of each scene")->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
