@@ -49,6 +49,7 @@ class VectorFuzz {
     });
     for (const std::string_view kind : other_kinds())
       compare(kind);
+    std::ranges::stable_sort(report_.failures, {}, &VectorFailure::index);
     for (VectorFailure& failure : report_.failures)
       failure.what = difference(failure);
     force({});
@@ -82,7 +83,6 @@ class VectorFuzz {
       const auto tick = static_cast<std::uint64_t>(at - hashes.begin()) + 1;
       report_.failures.push_back({index, tick, std::string(kind), {}});
     });
-    std::ranges::stable_sort(report_.failures, {}, &VectorFailure::index);
   }
 
   // Plays the world again up to the tick, of both kinds, and names the first field that differs.

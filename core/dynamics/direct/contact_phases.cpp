@@ -301,7 +301,7 @@ void set_biases(const ContactRun& run, const IslandView& island, bool pushes_out
   for (std::size_t c = 0; c < island.contacts.size(); ++c)
     gives_change = set_bias(run, island.contacts[c], island.problems[c], pushes_out, is_jointed) ||
                    gives_change;
-  if (gives_change) island.state.is_factored = island.state.was_factored = false;
+  if (gives_change) island.state.drop_factor();
 }
 
 void loosen(const IslandView& island) {

@@ -23,9 +23,12 @@ struct IslandState {
   bool is_measured = false;   ///< speeds of contacts' rows are measured before each phase, since
                               ///< joints or impacts change velocities as well
   bool warms = false;         ///< this phase begins with the impulses of the tick before
-  bool was_factored = false;  ///< in this tick
+  bool was_factored = false;  ///< in this tick, since its rows last changed
   bool is_factored = false;   ///< for the rows that are active
   bool is_whole = false;      ///< `WholeIslands` solves it
+
+  /// Where rows of the matrix change: the next phase begins with a factor of its own.
+  void drop_factor() { is_factored = was_factored = false; }
 };
 
 /// Where blocks of the bodies of a contact or a joint are in the factor.

@@ -134,7 +134,7 @@ void update(const ContactRun& run, const JointAccess& access, const IslandView& 
     }
     measure_joint(access, joints[i], problems[i], pushes_out);
   }
-  if (reads) island.state.is_factored = island.state.was_factored = false;
+  if (reads) island.state.drop_factor();
 }
 
 void give(const JointAccess& access, const IslandView& island) {
