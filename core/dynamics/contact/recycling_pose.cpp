@@ -40,21 +40,6 @@ std::int64_t within_bits(std::int64_t x, int bits) {
   return std::clamp(x, -most, most);
 }
 
-// r + turn × r.
-void turn_anchor(const PoseDelta& delta, Vec3<Length>& anchor) {
-  const std::int64_t x = anchor.x.raw, y = anchor.y.raw, z = anchor.z.raw;
-  const auto& turn = delta.turn;
-  LKS_ASSERT(delta.is_wide);
-  LKS_ASSERT(is_within(3, std::int64_t{1} << 30,
-                       [&](int i) { return std::int64_t{turn[static_cast<std::size_t>(i)]}; }));
-  const auto add = [](Length& to, std::int64_t by) {
-    to.raw = raw::saturate<std::int32_t>(to.raw + raw::round_shift(by, k_turn_bits));
-  };
-  add(anchor.x, turn[1] * z - turn[2] * y);
-  add(anchor.y, turn[2] * x - turn[0] * z);
-  add(anchor.z, turn[0] * y - turn[1] * x);
-}
-
 }  // namespace
 
 Vec3<Position> recycling_position(const BodyRecord& body) {
@@ -91,7 +76,6 @@ PoseDelta pose_delta_of(const BodyRecord& body) {
     delta.way[static_cast<std::size_t>(i)] =
         static_cast<std::int32_t>(within_bits(way_of(body, i), 27));
   }
-  delta.is_wide = !is_near_recycling_pose(body, k_coarse_range);
   const Quat& then = body.recycling_orientation;
   if (body.orientation == then) return delta;
   // The vector of now · then*, of which the part then · then* is none. Q60, halved.
@@ -135,8 +119,6 @@ void shift_manifold(const PoseDelta& a, const PoseDelta& b, Manifold& manifold) 
     point.separation.raw = raw::saturate<std::int32_t>(
         point.separation.raw +
         raw::round_shift(by, k_turn_bits + Length::frac_bits - Displacement::frac_bits));
-    if (a.is_wide) turn_anchor(a, point.anchor_a);
-    if (b.is_wide) turn_anchor(b, point.anchor_b);
   }
 }
 

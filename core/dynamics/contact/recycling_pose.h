@@ -20,7 +20,6 @@ namespace lockstone {
 struct PoseDelta {
   std::array<std::int32_t, 3> way{};   // of the centre, m, Q32
   std::array<std::int32_t, 3> turn{};  // rotation vector, rad, Q32
-  bool is_wide = false;                // beyond k_coarse_range
 
   friend bool operator==(const PoseDelta&, const PoseDelta&) = default;
   [[nodiscard]] bool is_none() const {
@@ -37,9 +36,7 @@ struct PoseDelta {
 struct RecyclingRange {
   int metres, scales;
 };
-/// In large stacks, which are rebalanced to a finer measure.
-inline constexpr RecyclingRange k_fine_range{-14, -14};
-/// In all other islands that iterations solve.
+/// In islands that iterations solve.
 inline constexpr RecyclingRange k_coarse_range{-9, -9};
 /// In a pile whose bodies are all as near: 16 mm. Thin bodies that have passed each other are
 /// jammed: they tremble from one pair of features to another, which overlaps as much, and rest only
@@ -58,8 +55,9 @@ void set_recycling_pose(BodyRecord& body);
 [[nodiscard]] PoseDelta pose_delta_of(const BodyRecord& body);
 
 /// From separations at the recycling poses to those where the bodies are: along the normal, to
-/// first order; the error is below 2^-17 m for bodies of a metre within k_coarse_range. Beyond it
-/// anchors turn with their bodies, too.
+/// first order; the error is below 2^-17 m for bodies of a metre within k_coarse_range. Anchors and
+/// the normal stay, so that a wall that leans by a hair gains no lever from it: soft contacts that
+/// carry it would buckle.
 void shift_manifold(const PoseDelta& a, const PoseDelta& b, Manifold& manifold);
 
 }  // namespace lockstone

@@ -300,7 +300,6 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
 
 bool ContactSolver::keeps_recycling_pose(const IslandTally* island, const BodyRecord& record) {
   if (island == nullptr || island->is_converged) return false;
-  if (island->is_stack()) return is_near_recycling_pose(record, k_fine_range);
   // A sweeper may have taken the body along since it was counted.
   const bool is_quiet_pile = island->may_be_loose() && island->strayed.get() == 0;
   return is_near_recycling_pose(record, is_quiet_pile ? k_wide_range : k_coarse_range);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-void brick_wall(SceneMaker& m, int wide, int high) {
+// Each row comes `ticks` after the one below it.
+void brick_wall(SceneMaker& m, int wide, int high, int ticks = 0) {
   const double off = m.random.between(0, 1e-3);
   m.ground();
   for (int row = 0; row < high; ++row) {
@@ -19,8 +20,10 @@ void brick_wall(SceneMaker& m, int wide, int high) {
     for (int i = 0; i < wide + (odd ? 1 : 0); ++i) {
       const bool end = odd && (i == 0 || i == wide);
       const double x = 0.5 * i - (odd ? 0.25 : 0) + (end ? (i == 0 ? 0.125 : -0.125) : 0);
-      m.box({end ? 0.125 : 0.25, 0.1, 0.125},
-            {x + m.random.between(-off, off), 0.1 * (2 * row + 1), m.random.between(-off, off)});
+      const double along = x + m.random.between(-off, off), across = m.random.between(-off, off);
+      const int brick =
+          m.box({end ? 0.125 : 0.25, 0.1, 0.125}, {along, 0.1 * (2 * row + 1), across});
+      m.body(brick).from = ticks * row;
     }
   }
   m.set_friction(m.random.between(0.4, 0.8));
@@ -37,6 +40,25 @@ void fill_wall(SceneMaker& m) {
 void fill_long_wall(SceneMaker& m) {
   const int wide = m.count(12, 24);
   brick_wall(m, wide, m.count(10, 18));
+}
+
+// Through the same numbers while it is built. A new row falls onto the others, which have sunk.
+void fill_built_wall(SceneMaker& m) {
+  const int wide = m.count(4, 24), high = m.count(6, 18);
+  brick_wall(m, wide, high, m.random.count(1, 40));
+  m.judge(Judge::displacement, 0.1, 15);
+}
+
+void fill_nudged_wall(SceneMaker& m) {
+  const int wide = m.count(4, 24), high = m.count(6, 18);
+  brick_wall(m, wide, high);
+  const int nudges = m.random.count(1, 6);
+  const int bricks = static_cast<int>(m.scene.bodies.size()) - 1;
+  for (int i = 0; i < nudges; ++i) {
+    const int brick = m.random.count(1, bricks);
+    m.scene.moves.push_back({60 + 10 * i, brick, m.jitter(m.random.between(0.05, 0.6)), {}});
+  }
+  m.judge(Judge::displacement, 0.1, 15);
 }
 
 void fill_round_tower(SceneMaker& m) {
@@ -165,6 +187,8 @@ void fill_dominoes(SceneMaker& m) {
 void add_wall_families(std::vector<Family>& all) {
   all.insert(all.end(), {{"wall", "brick walls 2-12 wide, 3-16 high", fill_wall},
                          {"long-wall", "brick walls 12-24 wide, 10-18 high", fill_long_wall},
+                         {"built-wall", "4-24 wide, 6-18 high, built row by row", fill_built_wall},
+                         {"nudged-wall", "the same, 1-6 nudges of up to 0.6 m/s", fill_nudged_wall},
                          {"round-tower", "3-16 rings of 6-16 bricks", fill_round_tower},
                          {"jenga", "4-18 layers of three, some middles gone", fill_jenga},
                          {"pyramid", "3-16 rows of boxes, gaps of 0-15 %", fill_pyramid},

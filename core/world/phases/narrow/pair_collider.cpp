@@ -87,12 +87,9 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
     read_poses(pair, margin, input);
   }
   entry.held = held_features(before, a, b);
-  // Anchors that turned with their bodies are no more those that were found.
-  const bool turns = is_recycled && (world_.cache.pose_delta(pair.a).is_wide ||
-                                     world_.cache.pose_delta(pair.b).is_wide);
-  input.held = turns ? ManifoldInput::k_holds_others : held_own(entry.held);
+  input.held = held_own(entry.held);
   const std::uint32_t known = remembered_manifold(before);
-  const bool is_known = !turns && known != ManifoldIds::k_none &&
+  const bool is_known = known != ManifoldIds::k_none &&
                         (is_recycled ? data_.notes_before.inputs[known].has_same_poses(input)
                                      : data_.notes_before.inputs[known] == input);
   if (is_known) {

@@ -154,9 +154,7 @@ TouchedPoint SeamSearch::point_of(const SeamContact& contact, int point) const {
   const BodyRecord& record = world_.bodies[body_];
   const ManifoldPoint& found = data_.found.manifolds[contact.id].points[at];
   const Vec3<Length>& anchor = found.anchor_a;
-  // Anchors that turned are seen from where the body is.
-  const bool is_recycled = is_found_at_recycling_poses(world_, {body_, contact.other}) &&
-                           !world_.cache.pose_delta(body_).is_wide;
+  const bool is_recycled = is_found_at_recycling_poses(world_, {body_, contact.other});
   const Displacement separation =
       is_recycled ? data_.notes.separations[contact.id][at] : found.separation;
   const bool halves = separation.raw < 0 && !is_round(record.shape().kind);
