@@ -55,9 +55,9 @@ void set_recycling_pose(BodyRecord& body);
 [[nodiscard]] PoseDelta pose_delta_of(const BodyRecord& body);
 
 /// From separations at the recycling poses to those where the bodies are: along the normal, to
-/// first order; the error is below 2^-17 m for bodies of a metre within k_coarse_range. Anchors and
-/// the normal stay, so that a wall that leans by a hair gains no lever from it: soft contacts that
-/// carry it would buckle.
+/// first order; the error is below 2^-17 m for bodies of a metre within k_coarse_range, and grows
+/// with the square of the way. Anchors and the normal stay, so that a wall that leans by a hair
+/// gains no lever from it: soft contacts that carry it would buckle.
 void shift_manifold(const PoseDelta& a, const PoseDelta& b, Manifold& manifold);
 
 }  // namespace lockstone
