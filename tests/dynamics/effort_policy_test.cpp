@@ -123,6 +123,37 @@ TEST(EffortPolicy, KeepsAPileLooseForFourSecondsAfterItWasStirred) {
   }
 }
 
+// A converged island of this many bodies after a tick of eight phases.
+bool is_given_up(std::uint32_t bodies, std::uint32_t products, std::uint32_t unsolved) {
+  IslandTally island;
+  island.bodies = bodies;
+  island.is_converged = true;
+  IslandState state;
+  state.unsolved = unsolved;
+  BodyFactor::Plan plan;
+  plan.products = products;
+  return policy(1024).gives_up(island, {state, plan, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+}
+
+TEST(EffortPolicy, GivesUpALargeIslandOfWhichATickLeavesHalfUnsolved) {
+  EXPECT_TRUE(is_given_up(100, 4097, 4));
+  EXPECT_FALSE(is_given_up(100, 4097, 3));
+  EXPECT_FALSE(is_given_up(100, 4096, 8));
+  EXPECT_FALSE(is_given_up(23, 40000, 8));
+}
+
+TEST(EffortPolicy, IteratesAnIslandThatIsGivenUpAsALoosePile) {
+  IslandTally given_up, stirred;
+  given_up.bodies = stirred.bodies = 100;
+  given_up.is_given_up = stirred.is_loose = true;
+  stir(stirred, 50);
+  const BodyRecord body;
+  const TimeStep step = TimeStep::of(60, 4);
+  EXPECT_GT(EffortPolicy::loose_time(given_up, body, step, 0), 0);
+  EXPECT_EQ(EffortPolicy::loose_time(given_up, body, step, 0),
+            EffortPolicy::loose_time(stirred, body, step, 0));
+}
+
 TEST(EffortPolicy, CallsNoIslandWithoutJointsLooseThatIsSmallOrUneven) {
   IslandTally island;
   island.bodies = 24;

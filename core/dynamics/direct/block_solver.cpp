@@ -47,6 +47,7 @@ void BlockSolver::solve(const ContactRun& run, const JointAccess& joints, std::u
   if (!phase.set_units()) return;
   phase.solve(pushes_out);
   if (pushes_out && island.joints.empty() && limits_pushes(run, island)) phase.solve(pushes_out);
+  if (!phase.is_done()) ++island.state.unsolved;
   if (island.state.warms)
     for (lanes::ProximalBlock& problem : island.problems)
       problem.warm = {};

@@ -15,17 +15,18 @@ namespace lockstone {
 
 /// An island's progress through the phases of a tick.
 struct IslandState {
-  BlockFloat unit{};          ///< 1/m₀
-  int bits = 0;               ///< fraction bits of the phase's units
-  int loose = 0;              ///< the phase's tolerance is 2^this times the least
-  int stir = 0;               ///< EffortPolicy::stir_level; 0 with joints
-  bool is_first = true;       ///< substep of the tick
-  bool is_measured = false;   ///< speeds of contacts' rows are measured before each phase, since
-                              ///< joints or impacts change velocities as well
-  bool warms = false;         ///< this phase begins with the impulses of the tick before
-  bool was_factored = false;  ///< in this tick, since its rows last changed
-  bool is_factored = false;   ///< for the rows that are active
-  bool is_whole = false;      ///< `WholeIslands` solves it
+  BlockFloat unit{};           ///< 1/m₀
+  int bits = 0;                ///< fraction bits of the phase's units
+  int loose = 0;               ///< the phase's tolerance is 2^this times the least
+  int stir = 0;                ///< EffortPolicy::stir_level; 0 with joints
+  std::uint32_t unsolved = 0;  ///< phases of the tick that ended before they were solved
+  bool is_first = true;        ///< substep of the tick
+  bool is_measured = false;    ///< speeds of contacts' rows are measured before each phase, since
+                               ///< joints or impacts change velocities as well
+  bool warms = false;          ///< this phase begins with the impulses of the tick before
+  bool was_factored = false;   ///< in this tick, since its rows last changed
+  bool is_factored = false;    ///< for the rows that are active
+  bool is_whole = false;       ///< `WholeIslands` solves it
 
   /// Where rows of the matrix change: the next phase begins with a factor of its own.
   void drop_factor() { is_factored = was_factored = false; }

@@ -375,16 +375,16 @@ void PhaseSolver::iterate() {
   const Effort& effort = island_.joints.empty() ? k_of_contacts : k_with_joints;
   const int long_solves = island_.state.stir == 0 ? effort.solves : 1;
   if (island_.state.is_factored || !island_.state.was_factored) (void)direct_step(long_solves);
-  bool done = is_solved_;
+  is_done_ = is_solved_;
   bool is_last = false;
-  for (int step = 0; !done && fits_; ++step) {
-    for (int i = 0; i < (step == 0 ? effort.first_passes : effort.passes) && !done; ++i)
-      done = pass();
-    if (is_last || done) break;
+  for (int step = 0; !is_done_ && fits_; ++step) {
+    for (int i = 0; i < (step == 0 ? effort.first_passes : effort.passes) && !is_done_; ++i)
+      is_done_ = pass();
+    if (is_last || is_done_) break;
     mark_active();
     const int most_solves = step + 1 < k_long_steps ? long_solves : 1;
     is_last = !direct_step(most_solves) || step + 1 == effort.direct_steps;
-    done = is_solved_;
+    is_done_ = is_solved_;
   }
 }
 

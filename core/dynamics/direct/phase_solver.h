@@ -39,6 +39,9 @@ class PhaseSolver {
   /// too fine become coarser.
   void solve(bool scales);
 
+  /// Whether it did: direct steps or passes came to an end before they were used up.
+  [[nodiscard]] bool is_done() const { return is_done_; }
+
  private:
   struct Slope {
     ProductSum sum;
@@ -77,6 +80,7 @@ class PhaseSolver {
   int drop_ = 0;            // bits of residuals that the direct step at hand leaves out
   bool fits_ = true;        // so far nothing had to be clamped in these units
   bool is_solved_ = false;  // by the last direct step
+  bool is_done_ = false;
 };
 
 }  // namespace lockstone

@@ -65,6 +65,7 @@ struct IslandTally {
   bool is_supported = false;      ///< a contact holds it against a body that is not pushed
   bool is_loose = false;          ///< a loose pile, which iterations bring to rest
   bool is_converged = false;      ///< solved to convergence, by `BlockSolver`
+  bool is_given_up = false;       ///< it was converged, and is iterated for the next seconds
   std::uint32_t whole = 0;        ///< its number among those solved whole, from 1; 0: it is not
   std::uint32_t bodies = 0;       ///< dynamic ones
   std::uint32_t contacts = 0;

@@ -153,8 +153,8 @@ bool BodyFactor::plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& p
   was_full_ = was_full_ || columns_.size() + bodies > x_.size();
   if (columns_.size() + bodies > x_.size()) return false;
   plan = {static_cast<std::uint32_t>(columns_.size()), bodies,
-          static_cast<std::uint32_t>(blocks_.size()), 0,
-          static_cast<std::uint32_t>(targets_.size())};
+          static_cast<std::uint32_t>(blocks_.size()),  0,
+          static_cast<std::uint32_t>(targets_.size()), 0};
   for (std::uint32_t i = 0; i < bodies; ++i)
     neighbours_[i].reset();
   for (const auto& [a, b] : pairs) {
@@ -173,6 +173,7 @@ bool BodyFactor::plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& p
     return false;
   }
   plan.blocks = static_cast<std::uint32_t>(blocks);
+  plan.products = static_cast<std::uint32_t>(products);
   blocks_.resize(blocks_.size() + blocks);
   add_columns(plan);
   add_targets(plan);

@@ -44,6 +44,7 @@ class BodyFactor {
     std::uint32_t first_block = 0;  // diagonal blocks first, in the order of elimination
     std::uint32_t blocks = 0;
     std::uint32_t first_target = 0;
+    std::uint32_t products = 0;  // of blocks, in an elimination
   };
 
   /// Room for islands of this many bodies and pairs in all. No function but this allocates.

@@ -79,7 +79,7 @@ struct BodyRecord {
   std::uint8_t locks = 0;        // BodyLock
   std::uint16_t rest_ticks = 0;  // since it rests
   std::uint8_t still_ticks = 0;  // StillIslands: since its island moved
-  std::uint8_t loose_time = 0;   // EffortPolicy: for so long its pile stays loose, unstirred
+  std::uint8_t loose_time = 0;   // EffortPolicy: for so long its pile is iterated, unstirred
   SolverVelocity hit_speed{};    // EventSettings::hit_speed
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;

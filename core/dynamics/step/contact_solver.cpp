@@ -193,6 +193,7 @@ void ContactSolver::run(Parallel& parallel) {
     run_piece(stage, first, end);
   });
   totals_.end(constraints_.run());
+  if (converged_ != nullptr) converged_->islands.give_up(effort_, constraints_.run(), islands_);
 }
 
 void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t end) {
@@ -273,6 +274,7 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
                           std::memory_order_relaxed);
   });
   tick_.saturations = saturations;
+  if (converged_ != nullptr) converged_->islands.forget(contacts_, records);
 }
 
 const SolverBody* ContactSolver::find(std::uint32_t body) const {

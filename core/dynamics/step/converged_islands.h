@@ -63,6 +63,12 @@ class ConvergedIslands {
   /// After its last phase.
   void end(const ContactRun& run, std::uint32_t island) { solver_.end(run, island); }
 
+  /// After the last phase: marks the islands that are given up.
+  void give_up(const EffortPolicy& effort, const ContactRun& run, IslandBuilder& islands);
+
+  /// Once impulses are stored: contacts of islands that are given up, and stand, are new again.
+  void forget(const ContactList& contacts, std::span<ContactRecord> records) const;
+
   /// Calls `work(island)` for islands `first` … `end` − 1 that are not solved whole.
   template <class Work>
   void for_staged(std::size_t first, std::size_t end, const Work& work) const {
@@ -81,6 +87,7 @@ class ConvergedIslands {
   std::vector<std::uint32_t> bodies_;  // of the island at hand
   std::vector<IslandContact> contacts_;
   std::vector<IslandJoint> joints_;
+  std::vector<ContactId> forgotten_;  // contacts of this tick
 };
 
 }  // namespace lockstone

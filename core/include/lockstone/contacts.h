@@ -29,8 +29,9 @@ struct TouchingPoint {
 /// by the tick rate they are the impulse of a tick.
 struct BodyContact {
   BodyHandle other{};
-  Vec3<Unit> normal{};      ///< from the body to the other; zero without points
-  Force normal_force{};     ///< N, ≥ 0: pushes the other along the normal, at all points
+  Vec3<Unit> normal{};   ///< from the body to the other; zero without points
+  Force normal_force{};  ///< N, ≥ 0: pushes the other along the normal, at all points; 0 in a
+                         ///< tick in which the solver gives the island up
   Vec3<Force> friction{};   ///< N, on the other
   std::uint32_t count = 0;  ///< of points: 0 where the two parted within the step
   std::array<TouchingPoint, 4> points{};

@@ -205,6 +205,14 @@ TEST(GeneralRun, KeepsWallsUpWhileTheyAreBuilt) {
     EXPECT_LT(play("built-wall", seed).error, 0.1) << seed;
 }
 
+// The first two are given up: new, or once it is pushed. A dome of as many contacts is solved, and
+// stays converged: iterated it moves by 16 mm.
+TEST(GeneralRun, KeepsUpWallsThatItGivesUpAndSolvesDomes) {
+  EXPECT_LT(play("wall", 9300007).error, 0.005);
+  EXPECT_LT(play("nudged-wall", 9300010).error, 0.01);
+  EXPECT_LT(play("dome", 9700029).error, 0.0002);
+}
+
 TEST(GeneralRun, DrawsAScene) {
   const std::string picture =
       draw_general(lockstone_general(), make_scene(*find_family("ladder"), 1), k_substeps);

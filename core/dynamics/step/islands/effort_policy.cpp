@@ -7,8 +7,10 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/body/lane_bodies.h"
+#include "core/dynamics/contact/block_words.h"
 #include "core/dynamics/problem/body_factor.h"
 #include "core/dynamics/step/input/contact_params.h"
+#include "core/math/roots.h"
 
 namespace lockstone {
 namespace {
@@ -110,6 +112,8 @@ void EffortPolicy::begin(const Vec3<Acceleration>& gravity) {
                 : raw::round_divide(5 * raw::round_shift(most, Acceleration::frac_bits - 20),
                                     step_.substep_rate());
   LKS_ASSERT(bearing_impulse_ >= 0);
+  const Vec3<Unit> down = direction_of(gravity);
+  down_ = {down.x.raw, down.y.raw, down.z.raw};
 }
 
 void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& bodies,
@@ -187,6 +191,36 @@ bool EffortPolicy::is_stirred(const IslandTally& island) {
   return stir_level(island) >= k_loosening;
 }
 
+bool EffortPolicy::gives_up(const IslandTally& island, const IslandView& solved) const {
+  LKS_ASSERT(island.is_converged && island.bodies != 0);
+  LKS_ASSERT(solved.plan.products == 0 || solved.plan.products >= solved.plan.bodies);
+  // Single stacks of any height have fewer, four for each body.
+  constexpr std::uint32_t k_small_products = 4096;
+  if (solved.plan.products <= k_small_products || !island.may_be_loose()) return false;
+  return solved.state.unsolved >= static_cast<std::uint32_t>(step_.substeps);
+}
+
+bool EffortPolicy::stands(const IslandView& island, const ContactRun& run) const {
+  constexpr std::int64_t k_upright = (std::int64_t{1} << 60) / 8 * 7;
+  std::int64_t all = 0, upright = 0;
+  for (const ProximalContact& contact : island.contacts) {
+    const lanes::ManifoldBlock& block = run.blocks[contact.place.block()];
+    const std::size_t lane = contact.place.lane();
+    std::int64_t impulse = 0;
+    for (const lanes::ManifoldBlock::Point& point : block.points)
+      impulse += low_word(point.impulse[lane]);
+    LKS_ASSERT(impulse >= 0);
+    const RawVec3 normal = normal_of(block, lane);
+    std::int64_t along = 0;  // of two unit vectors, Q60
+    for (std::size_t i = 0; i < 3; ++i)
+      along += normal[i] * down_[i];
+    all += impulse;
+    if (std::abs(along) >= k_upright) upright += impulse;
+  }
+  LKS_ASSERT(upright >= 0 && upright <= all);
+  return upright > all / 4 * 3;
+}
+
 bool EffortPolicy::is_loose_pile(const IslandTally& island) {
   return island.may_be_loose() && (is_stirred(island) || island.loose > island.bodies / 2);
 }
@@ -194,9 +228,11 @@ bool EffortPolicy::is_loose_pile(const IslandTally& island) {
 std::uint8_t EffortPolicy::loose_time(const IslandTally& island, const BodyRecord& body,
                                       const TimeStep& step, std::uint64_t tick) {
   constexpr std::int32_t k_seconds = 4, k_unit_rate = 60;
-  if (!island.is_loose) return 0;
+  if (!island.is_loose && !island.is_given_up) return 0;
   const std::int32_t most = k_seconds * std::min(step.tick_rate, k_unit_rate);
-  if (is_stirred(island) || island.joints != 0) return static_cast<std::uint8_t>(most);
+  LKS_ASSERT(most > 0 && most <= UINT8_MAX);
+  if (is_stirred(island) || island.is_given_up || island.joints != 0)
+    return static_cast<std::uint8_t>(most);
   const int unit = std::max(step.tick_rate / k_unit_rate, 1);
   const bool counts = tick % static_cast<std::uint64_t>(unit) == 0;
   return static_cast<std::uint8_t>(std::max(body.loose_time - (counts ? 1 : 0), 0));

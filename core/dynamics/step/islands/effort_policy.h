@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "core/dynamics/contact/row_geometry.h"
+#include "core/dynamics/direct/island_pool.h"
 #include "core/dynamics/state/time_step.h"
 #include "core/dynamics/step/input/contact_list.h"
 #include "core/dynamics/step/input/contact_scene.h"
@@ -51,9 +53,18 @@ class EffortPolicy {
   /// and of an island that is not to be solved more coarsely when it is stirred.
   [[nodiscard]] static int stir_level(const IslandTally& island);
 
-  /// The `loose_time` of a body of an island once it was solved: four seconds if it was stirred, in
-  /// ticks or, where these are shorter, in sixtieths of a second (rounded to whole ticks); else it
-  /// runs out.
+  /// Whether an island that was solved to convergence is given up: half of the phases of the tick
+  /// ended before they were solved, and factors of its size cost more than iterations do. It is
+  /// iterated from the next tick on, as a loose pile.
+  [[nodiscard]] bool gives_up(const IslandTally& island, const IslandView& solved) const;
+
+  /// Whether bodies of an island stand on each other: less than a quarter of the impulses of its
+  /// contacts leans. Then an initial warm start finds its loads.
+  [[nodiscard]] bool stands(const IslandView& island, const ContactRun& run) const;
+
+  /// The `loose_time` of a body of an island once it was solved: four seconds if it was stirred or
+  /// is given up, in ticks or, where these are shorter, in sixtieths of a second (rounded to whole
+  /// ticks); else it runs out.
   [[nodiscard]] static std::uint8_t loose_time(const IslandTally& island, const BodyRecord& body,
                                                const TimeStep& step, std::uint64_t tick);
 
@@ -87,6 +98,7 @@ class EffortPolicy {
   TimeStep step_;
   std::uint32_t most_island_contacts_;
   std::int64_t bearing_impulse_ = 0;
+  RawVec3 down_{};  // the direction of gravity, Q30
 };
 
 }  // namespace lockstone
