@@ -27,6 +27,7 @@ struct IslandState {
   bool was_factored = false;   ///< in this tick, since its rows last changed
   bool is_factored = false;    ///< for the rows that are active
   bool is_whole = false;       ///< `WholeIslands` solves it
+  bool forgets = false;        ///< its contacts are new again in the next tick
 
   /// Where rows of the matrix change: the next phase begins with a factor of its own.
   void drop_factor() { is_factored = was_factored = false; }

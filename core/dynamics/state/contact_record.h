@@ -55,6 +55,10 @@ struct ContactRecord {
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 
   [[nodiscard]] ContactKey key() const { return {body_a, body_b, part_a, part_b}; }
+  /// A contact that has just been found: without points, impulses and flags.
+  [[nodiscard]] static ContactRecord of(const ContactKey& key) {
+    return {.body_a = key.body_a, .body_b = key.body_b, .part_a = key.part_a, .part_b = key.part_b};
+  }
   /// The normal impulse of the point with this feature; 0 where there is none.
   [[nodiscard]] SolverVelocity impulse_of(std::uint32_t feature) const {
     for (std::size_t i = 0; i < count; ++i)

@@ -32,14 +32,12 @@ ConvergedIslands::ConvergedIslands(const TimeStep& step, std::size_t body_capaci
   bodies_.reserve(BodyFactor::k_most_bodies);
   contacts_.reserve(most_island_contacts);
   joints_.reserve(std::min<std::size_t>(most_island_contacts, joint_capacity));
-  forgotten_.reserve(converged_contacts);
 }
 
 void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodies,
                             const ContactList& contacts, const EffortPolicy& effort,
                             IslandBuilder& islands, TickJoints& joints) {
   solver_.clear(joints.first_without_contacts());
-  forgotten_.clear();
   EffortPolicy::mark_iterated(scene, bodies, contacts, joints, islands);
   lists_.build(scene, bodies, contacts, islands);
   EffortPolicy::mark_stirred(scene, bodies, islands);
@@ -84,24 +82,25 @@ IslandView ConvergedIslands::take(std::uint32_t island) {
 void ConvergedIslands::give_up(const EffortPolicy& effort, const ContactRun& run,
                                IslandBuilder& islands) {
   for (std::uint32_t i = 0; i < count(); ++i) {
+    if (solver_.islands().state(i).unsolved == 0) continue;
     const IslandView view = solver_.islands().view(i);
     IslandTally& tally = islands.tally(islands.all().of(view.bodies[0]));
     tally.is_given_up = effort.gives_up(tally, view);
-    if (!tally.is_given_up || tally.joints != 0 || !effort.stands(view, run)) continue;
-    for (const ProximalContact& contact : view.contacts)
-      forgotten_.push_back(contact.id);
+    view.state.forgets = tally.is_given_up && tally.joints == 0 && effort.stands(view, run);
   }
 }
 
 // Iterations that began with impulses of phases which were not solved would let it sink, since no
 // contact has a mean impulse.
-void ConvergedIslands::forget(const ContactList& contacts, std::span<ContactRecord> records) const {
-  for (const ContactId id : forgotten_) {
-    ContactRecord& record = records[contacts[id].record];
-    record.points = {};
-    record.count = 0;
-    record.friction_impulse = record.rolling_impulse = {};
-    record.twist_impulse = record.mean_impulse = {};
+void ConvergedIslands::forget(const ContactList& contacts, std::span<ContactRecord> records) {
+  for (std::uint32_t i = 0; i < count(); ++i) {
+    if (!solver_.islands().state(i).forgets) continue;
+    for (const ProximalContact& contact : solver_.islands().view(i).contacts) {
+      ContactRecord& record = records[contacts[contact.id].record];
+      ContactRecord fresh = ContactRecord::of(record.key());
+      fresh.flags = record.flags;
+      record = fresh;
+    }
   }
 }
 

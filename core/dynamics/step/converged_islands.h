@@ -67,7 +67,7 @@ class ConvergedIslands {
   void give_up(const EffortPolicy& effort, const ContactRun& run, IslandBuilder& islands);
 
   /// Once impulses are stored: contacts of islands that are given up, and stand, are new again.
-  void forget(const ContactList& contacts, std::span<ContactRecord> records) const;
+  void forget(const ContactList& contacts, std::span<ContactRecord> records);
 
   /// Calls `work(island)` for islands `first` … `end` − 1 that are not solved whole.
   template <class Work>
@@ -87,7 +87,6 @@ class ConvergedIslands {
   std::vector<std::uint32_t> bodies_;  // of the island at hand
   std::vector<IslandContact> contacts_;
   std::vector<IslandJoint> joints_;
-  std::vector<ContactId> forgotten_;  // contacts of this tick
 };
 
 }  // namespace lockstone

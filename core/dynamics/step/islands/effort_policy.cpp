@@ -112,8 +112,7 @@ void EffortPolicy::begin(const Vec3<Acceleration>& gravity) {
                 : raw::round_divide(5 * raw::round_shift(most, Acceleration::frac_bits - 20),
                                     step_.substep_rate());
   LKS_ASSERT(bearing_impulse_ >= 0);
-  const Vec3<Unit> down = direction_of(gravity);
-  down_ = {down.x.raw, down.y.raw, down.z.raw};
+  gravity_ = gravity;
 }
 
 void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& bodies,
@@ -202,6 +201,8 @@ bool EffortPolicy::gives_up(const IslandTally& island, const IslandView& solved)
 
 bool EffortPolicy::stands(const IslandView& island, const ContactRun& run) const {
   constexpr std::int64_t k_upright = (std::int64_t{1} << 60) / 8 * 7;
+  const Vec3<Unit> unit = direction_of(gravity_);
+  const RawVec3 down{unit.x.raw, unit.y.raw, unit.z.raw};
   std::int64_t all = 0, upright = 0;
   for (const ProximalContact& contact : island.contacts) {
     const lanes::ManifoldBlock& block = run.blocks[contact.place.block()];
@@ -213,7 +214,7 @@ bool EffortPolicy::stands(const IslandView& island, const ContactRun& run) const
     const RawVec3 normal = normal_of(block, lane);
     std::int64_t along = 0;  // of two unit vectors, Q60
     for (std::size_t i = 0; i < 3; ++i)
-      along += normal[i] * down_[i];
+      along += normal[i] * down[i];
     all += impulse;
     if (std::abs(along) >= k_upright) upright += impulse;
   }
@@ -228,11 +229,11 @@ bool EffortPolicy::is_loose_pile(const IslandTally& island) {
 std::uint8_t EffortPolicy::loose_time(const IslandTally& island, const BodyRecord& body,
                                       const TimeStep& step, std::uint64_t tick) {
   constexpr std::int32_t k_seconds = 4, k_unit_rate = 60;
-  if (!island.is_loose && !island.is_given_up) return 0;
   const std::int32_t most = k_seconds * std::min(step.tick_rate, k_unit_rate);
   LKS_ASSERT(most > 0 && most <= UINT8_MAX);
-  if (is_stirred(island) || island.is_given_up || island.joints != 0)
-    return static_cast<std::uint8_t>(most);
+  if (island.is_given_up) return static_cast<std::uint8_t>(most);
+  if (!island.is_loose) return 0;
+  if (is_stirred(island) || island.joints != 0) return static_cast<std::uint8_t>(most);
   const int unit = std::max(step.tick_rate / k_unit_rate, 1);
   const bool counts = tick % static_cast<std::uint64_t>(unit) == 0;
   return static_cast<std::uint8_t>(std::max(body.loose_time - (counts ? 1 : 0), 0));

@@ -98,7 +98,7 @@ class EffortPolicy {
   TimeStep step_;
   std::uint32_t most_island_contacts_;
   std::int64_t bearing_impulse_ = 0;
-  RawVec3 down_{};  // the direction of gravity, Q30
+  Vec3<Acceleration> gravity_{};
 };
 
 }  // namespace lockstone

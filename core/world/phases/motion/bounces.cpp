@@ -179,12 +179,7 @@ void Bounces::mark(std::size_t contact) {
   if (!may_bounce(record)) return;
   const std::uint8_t marks = marks_[root_of(record)];
   if ((marks & k_will_bounce) == 0 && (marks & k_leans) != 0) return;
-  ContactRecord fresh;
-  fresh.body_a = record.body_a;
-  fresh.body_b = record.body_b;
-  fresh.part_a = record.part_a;
-  fresh.part_b = record.part_b;
-  record = fresh;
+  record = ContactRecord::of(record.key());
   found_.surface_of(contact).is_left_out = true;
   contacts_.push_back({root_of(record), static_cast<std::uint32_t>(contact)});
   for (const std::uint32_t body : {record.body_a, record.body_b}) {
