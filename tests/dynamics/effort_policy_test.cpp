@@ -191,6 +191,16 @@ TEST(EffortPolicy, ConvergesNoLoosePile) {
   EXPECT_FALSE(policy(100).may_converge(island));
 }
 
+TEST(EffortPolicy, ConvergesNoIslandThatIterationsHold) {
+  IslandTally island;
+  island.bodies = island.contacts = island.slow = 10;
+  EXPECT_TRUE(policy(100).may_converge(island));
+  island.keeps_pose = true;
+  EXPECT_FALSE(policy(100).may_converge(island));
+  --island.slow;
+  EXPECT_TRUE(policy(100).may_converge(island));
+}
+
 TEST(EffortPolicy, ConvergesNoneWhereTheWorldAllowsNone) {
   EXPECT_EQ(policy(0).most_island_contacts(), 0U);
   EXPECT_EQ(policy(1000000).most_island_contacts(), 1024U);

@@ -64,7 +64,7 @@ extern const Scene k_layers;                                             // laye
 extern const Scene k_level;                                              // level.cpp
 extern const Scene k_belts;                                              // belts.cpp
 extern const Scene k_crowd, k_characters;                                // crowd.cpp
-extern const Scene k_arch, k_cards;                                      // masonry.cpp
+extern const Scene k_arch, k_cards, k_shaken_wall;                       // masonry.cpp
 extern const Scene k_boats;                                              // water.cpp
 extern const Scene k_explosion;                                          // blast.cpp
 extern const Scene k_one_way;                                            // one_way.cpp

@@ -1,6 +1,7 @@
 #include "core/dynamics/body/motion.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <lockstone/assert.h>
 
@@ -150,6 +151,15 @@ Vec3<Acceleration> gravity_on(const BodyRecord& body, const Vec3<Acceleration>& 
     if (body.is_locked(i)) g[i] = {};
   }
   return g;
+}
+
+bool is_slower_than(const BodyRecord& body, int exponent) {
+  LKS_ASSERT(exponent <= 0 && exponent + Velocity::frac_bits >= 0);
+  const std::int64_t bound = std::int64_t{1} << (Velocity::frac_bits + exponent);
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(body.velocity[i].raw) >= bound || std::abs(body.spin[i].raw) >= bound)
+      return false;
+  return true;
 }
 
 void damp_velocity(BodyRecord& body, const TimeStep& step) {

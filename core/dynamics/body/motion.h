@@ -20,6 +20,9 @@ namespace lockstone {
   return body.velocity != Vec3<Velocity>{} || body.spin != Vec3<Velocity>{};
 }
 
+/// Whether it moves by less than 2^exponent m/s along each axis, centre and surface.
+[[nodiscard]] bool is_slower_than(const BodyRecord& body, int exponent);
+
 /// Of parts of a tick.
 inline constexpr Unit k_whole_tick = Unit::from_integer(1);
 

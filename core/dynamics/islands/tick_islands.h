@@ -31,6 +31,13 @@ class SharedCount {
   std::atomic<std::uint32_t> count_;
 };
 
+/// How one body of an island moved in a tick.
+struct BodyMotion {
+  bool has_moved = false;      ///< its pose has changed
+  bool has_travelled = false;  ///< by more than the solver's errors
+  bool is_settled = true;      ///< it is left with no more velocity than rounding gives
+};
+
 /// How the bodies of an island move.
 struct IslandMotion {
   /// By how much bodies may differ from the mean velocity, in powers of two.
@@ -72,13 +79,14 @@ struct IslandTally {
   std::uint32_t joints = 0;
   std::int32_t least_share = 1 << 30;  ///< of the masses of two that touch or are jointed, Q30
   std::uint32_t loose = 0;             ///< bodies whose pile stays loose, unstirred
-  std::uint32_t nearly_still = 0;  ///< bodies whose island was not seen to move in the last tick
-  bool keeps_pose = false;         ///< a body turned from its recycling pose: it was iterated
+  std::uint32_t slow = 0;              ///< bodies that hardly move, and may be held by iterations
+  bool keeps_pose = false;             ///< a body turned from its recycling pose: it was iterated
   IslandMotion motion{};
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
   SharedCount moved{};        ///< bodies whose poses have changed in the tick
   SharedCount travelled{};    ///< of these, bodies that did more than tremble
+  SharedCount unsettled{};    ///< bodies that are not settled
   SharedCount strayed{};      ///< bodies beyond k_wide_range of their recycling poses
   SharedCount overloaded{};   ///< contacts at rest under several times a body's weight; from
                               ///< k_most_overloaded + 1 on it may be any greater number

@@ -307,13 +307,18 @@ bool ContactSolver::keeps_recycling_pose(const IslandTally* island, const BodyRe
   return is_near_recycling_pose(record, is_quiet_pile ? k_wide_range : k_coarse_range);
 }
 
-void ContactSolver::note_moved(std::uint32_t body, const BodyRecord& record, bool travelled) {
+void ContactSolver::note_motion(std::uint32_t body, const BodyRecord& record,
+                                const BodyMotion& motion) {
+  LKS_ASSERT(motion.has_moved || !motion.has_travelled);
+  if (!motion.has_moved && motion.is_settled) return;
   const std::uint32_t number = bodies_.number_of(body);
   const std::uint32_t island = number == 0 ? 0 : islands_.of(BodyRef::numbered(number));
   if (island == 0) return;
   IslandTally& tally = islands_.tally(island);
+  if (!motion.is_settled) tally.unsettled.raise();
+  if (!motion.has_moved) return;
   tally.moved.raise();
-  if (travelled) tally.travelled.raise();
+  if (motion.has_travelled) tally.travelled.raise();
   if (tally.may_be_loose() && !is_near_recycling_pose(record, k_wide_range)) tally.strayed.raise();
 }
 

@@ -97,9 +97,8 @@ class ContactSolver {
   [[nodiscard]] static bool keeps_recycling_pose(const IslandTally* island,
                                                  const BodyRecord& record);
 
-  /// A body of an island has another pose than at the tick's beginning, and did more than tremble
-  /// (`StillIslands::trembles`) or not. From any thread.
-  void note_moved(std::uint32_t body, const BodyRecord& record, bool travelled);
+  /// How a body moved in the tick. From any thread.
+  void note_motion(std::uint32_t body, const BodyRecord& record, const BodyMotion& motion);
   /// The counts of a body's island; null of a body that is in none.
   [[nodiscard]] const IslandTally* island_of(std::uint32_t body) const {
     return islands_.find(bodies_, body);

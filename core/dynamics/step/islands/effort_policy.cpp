@@ -7,6 +7,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/body/lane_bodies.h"
+#include "core/dynamics/body/motion.h"
 #include "core/dynamics/contact/block_words.h"
 #include "core/dynamics/problem/body_factor.h"
 #include "core/dynamics/step/input/contact_params.h"
@@ -83,10 +84,11 @@ void for_each_body(const ContactScene& scene, const SolverBodies& bodies, Island
   }
 }
 
-// Whether iterations brought it to rest. They hold it until it is still: it would move again, to
-// another equilibrium, if it converged.
+// Whether iterations have brought it to rest, or almost: to less than 0.24 mm/s. They hold it until
+// it is still: it would move again, to another equilibrium, if it converged.
+constexpr int k_held_exponent = -12;
 bool is_held_by_iterations(const IslandTally& island) {
-  return island.keeps_pose && island.nearly_still == island.bodies;
+  return island.keeps_pose && island.slow == island.bodies;
 }
 
 std::int64_t impulse_of(const ContactRecord& record) {
@@ -135,8 +137,8 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
   }
   for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
     if ((body.locks & k_lock_moving) != 0) island.iterates_only = true;
-    if (body.still_ticks != 0) {
-      ++island.nearly_still;
+    if (is_slower_than(body, k_held_exponent)) {
+      ++island.slow;
       if (body.orientation != body.recycling_orientation) island.keeps_pose = true;
     }
     add_motion(body, island);

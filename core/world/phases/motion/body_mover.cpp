@@ -68,10 +68,8 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
   counts.saturations += limit_speed(record, inertia, world_.def.speed_limit) ? 1U : 0U;
   counts.saturations += limit_position(record) ? 1U : 0U;
   if (record.is_pushed()) end_pushes(record, rest_rules_);
-  const Transform& start = moved_.start(body);
-  if (solved != nullptr &&
-      (record.position != start.position || record.orientation != start.orientation))
-    solver_.note_moved(body, record, !left_out_.still.trembles(start, record));
+  if (solved != nullptr)
+    solver_.note_motion(body, record, left_out_.still.motion_since(moved_.start(body), record));
 }
 
 // The inverse inertia by which its spin is limited. A body without spin needs none.

@@ -1,7 +1,6 @@
 #include "core/world/phases/motion/still_islands.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <lockstone/assert.h>
 
@@ -12,20 +11,14 @@ namespace lockstone {
 namespace {
 
 // Twice an eighth of a second, and not so few ticks that chance decides: ticks in which nothing
-// moves count twice, those in which bodies tremble once.
+// moves count twice, those in which bodies tremble once, those of settled bodies seven times.
+constexpr int k_moves_nothing = 2, k_trembles = 1, k_is_settled = 7;
 std::uint8_t ticks_of(std::int32_t tick_rate) {
   return static_cast<std::uint8_t>(2 * std::max(tick_rate / 8, 4));
 }
 
-// Below 2^-14 m/s along each axis, 61 µm/s.
-constexpr int k_tremble_exponent = -14;
-bool is_slow(const BodyRecord& body) {
-  constexpr std::int64_t k_slow = std::int64_t{1} << (Velocity::frac_bits + k_tremble_exponent);
-  for (int i = 0; i < 3; ++i)
-    if (std::abs(body.velocity[i].raw) >= k_slow || std::abs(body.spin[i].raw) >= k_slow)
-      return false;
-  return true;
-}
+// 61 and 3.8 µm/s.
+constexpr int k_tremble_exponent = -14, k_settled_exponent = -18;
 
 // Bodies that float, hang or are driven may move as slowly as they tremble, and so may one alone.
 bool may_tremble(const IslandTally& island) {
@@ -77,7 +70,7 @@ void StillIslands::find() {
 
 // From one tick before the last, so that differences of that tick count.
 bool StillIslands::is_nearly_still(const BodyRecord& body) const {
-  return body.still_ticks + 2 >= ticks_;
+  return body.still_ticks + k_is_settled >= ticks_;
 }
 
 // Whether any island may be still.
@@ -95,7 +88,8 @@ void StillIslands::look_at_bodies() {
     is_tied_[body] = 0;
     if (!record.is_dynamic()) continue;
     const bool was_still = record.still_ticks > ticks_;
-    if (record.still_ticks < ticks_ || !is_slow(record)) islands_.mark_active(body);
+    if (record.still_ticks < ticks_ || !is_slower_than(record, k_tremble_exponent))
+      islands_.mark_active(body);
     if (bounces_.has_moved(body) || pendulums_.has(body) || (was_still && has_motion(record)))
       stir(body);
   }
@@ -170,12 +164,23 @@ void StillIslands::leave_out_contacts() {
 std::uint8_t StillIslands::count_of(const IslandTally* island, const BodyRecord& body) const {
   if (island == nullptr) return 0;
   const bool stands = island->moved.get() == 0;
-  if (!stands && (!may_tremble(*island) || island->travelled.get() != 0)) return 0;
-  return static_cast<std::uint8_t>(std::min<int>(body.still_ticks + (stands ? 2 : 1), ticks_));
+  const bool trembles = may_tremble(*island) && island->travelled.get() == 0;
+  if (!stands && !trembles) return 0;
+  const bool is_settled = trembles && island->unsettled.get() == 0;
+  const int counts = is_settled ? k_is_settled : stands ? k_moves_nothing : k_trembles;
+  return static_cast<std::uint8_t>(std::min<int>(body.still_ticks + counts, ticks_));
 }
 
+BodyMotion StillIslands::motion_since(const Transform& start, const BodyRecord& body) const {
+  const bool has_moved = body.position != start.position || body.orientation != start.orientation;
+  return {.has_moved = has_moved,
+          .has_travelled = has_moved && !trembles(start, body),
+          .is_settled = is_slower_than(body, k_settled_exponent)};
+}
+
+// Whether it moved no farther than iterations err.
 bool StillIslands::trembles(const Transform& start, const BodyRecord& body) const {
-  if (!is_slow(body)) return false;
+  if (!is_slower_than(body, k_tremble_exponent)) return false;
   const auto in_a_tick = [this](int bits) {
     return std::max(
         (std::int64_t{1} << std::max(bits + k_tremble_exponent, 0)) / world_.time_step.tick_rate,

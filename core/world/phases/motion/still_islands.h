@@ -4,14 +4,17 @@
 // nothing about them changes: the solver finds the same impulses again in each tick. So an island
 // of which no body has changed its pose, by a single bit, for an eighth of a second, keeps its
 // contacts and joints as they are, and so does one whose bodies have only trembled for a quarter of
-// a second: by less than 61 µm/s, as errors of the solver let them. Velocities become zero. It is
+// a second: by less than 61 µm/s, as errors of the solver let them. Velocities become zero.
+// Converged contacts leave bodies at rest no velocity but rounding, while overlap is still being
+// closed. Bodies of such an island are settled: they tremble and have less than 3.8 µm/s at the
+// tick's end. A thirtieth of a second of that, two ticks at least, is enough. A still island is
 // solved again in the tick in which anything about it differs: a contact or a point of one, a push,
 // a surface that moves. Commands that would wake sleeping bodies reset the counts of bodies that
 // are awake (Waking).
 //
 // Error: bodies do not stand still so long that would gain more than 6e-5 m/s² alone (the least
 // speed at which bodies move, solver.md "Still bodies stay", in an eighth of a second), or 2.4e-4
-// m/s² with others (61 µm/s in a quarter).
+// m/s² with others (61 µm/s in a quarter; 3.8 µm/s in a thirtieth are 1.1e-4 m/s²).
 #pragma once
 
 #include <cstdint>
@@ -50,10 +53,11 @@ class StillIslands {
   /// The still_ticks of a body of this island, or of none, once it was solved.
   [[nodiscard]] std::uint8_t count_of(const IslandTally* island, const BodyRecord& body) const;
 
-  /// Whether a body moved from its pose at the tick's beginning no farther than iterations err.
-  [[nodiscard]] bool trembles(const Transform& start, const BodyRecord& body) const;
+  /// How a body moved from its pose at the tick's beginning.
+  [[nodiscard]] BodyMotion motion_since(const Transform& start, const BodyRecord& body) const;
 
  private:
+  [[nodiscard]] bool trembles(const Transform& start, const BodyRecord& body) const;
   [[nodiscard]] bool is_nearly_still(const BodyRecord& body) const;
   [[nodiscard]] bool may_find() const;
   void look_at_bodies();
