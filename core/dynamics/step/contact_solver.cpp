@@ -315,10 +315,12 @@ void ContactSolver::note_motion(std::uint32_t body, const BodyRecord& record,
   const std::uint32_t island = number == 0 ? 0 : islands_.of(BodyRef::numbered(number));
   if (island == 0) return;
   IslandTally& tally = islands_.tally(island);
-  if (!motion.is_settled) tally.unsettled.raise();
+  if (motion.has_travelled)
+    tally.travelled.raise();
+  else if (!motion.is_settled)
+    tally.unsettled.raise();
   if (!motion.has_moved) return;
   tally.moved.raise();
-  if (motion.has_travelled) tally.travelled.raise();
   if (tally.may_be_loose() && !is_near_recycling_pose(record, k_wide_range)) tally.strayed.raise();
 }
 
