@@ -75,27 +75,27 @@ constexpr Kernels k_tables[] = {
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
     {"sse4", N_SSE4::k_lanes, N_SSE4::compute_rotations, N_SSE4::farthest_point,
-     N_SSE4::heights_above, N_SSE4::mark_at_least, &k_manifolds_N_SSE4, &k_balls_N_SSE4,
-     &k_boxes_N_SSE4, &k_scalar_proximal},
+     N_SSE4::extent_along, N_SSE4::heights_above, N_SSE4::mark_at_least, &k_manifolds_N_SSE4,
+     &k_balls_N_SSE4, &k_boxes_N_SSE4, &k_scalar_proximal},
 #endif
 #if HWY_TARGETS & HWY_AVX2
     {"avx2", N_AVX2::k_lanes, N_AVX2::compute_rotations, N_AVX2::farthest_point,
-     N_AVX2::heights_above, N_AVX2::mark_at_least, &k_manifolds_N_AVX2, &k_balls_N_AVX2,
-     &k_boxes_N_AVX2, k_island_kernels},
+     N_AVX2::extent_along, N_AVX2::heights_above, N_AVX2::mark_at_least, &k_manifolds_N_AVX2,
+     &k_balls_N_AVX2, &k_boxes_N_AVX2, k_island_kernels},
 #endif
 #if HWY_TARGETS & HWY_AVX3
     {"avx512", N_AVX3::k_lanes, N_AVX3::compute_rotations, N_AVX3::farthest_point,
-     N_AVX3::heights_above, N_AVX3::mark_at_least, &k_manifolds_N_AVX3, &k_balls_N_AVX3,
-     &k_boxes_N_AVX3, k_island_kernels},
+     N_AVX3::extent_along, N_AVX3::heights_above, N_AVX3::mark_at_least, &k_manifolds_N_AVX3,
+     &k_balls_N_AVX3, &k_boxes_N_AVX3, k_island_kernels},
 #endif
 #elif HWY_TARGETS & HWY_NEON
     {"neon", N_NEON::k_lanes, N_NEON::compute_rotations, N_NEON::farthest_point,
-     N_NEON::heights_above, N_NEON::mark_at_least, &k_manifolds_N_NEON, &k_balls_N_NEON,
-     &k_boxes_N_NEON, k_island_kernels},
+     N_NEON::extent_along, N_NEON::heights_above, N_NEON::mark_at_least, &k_manifolds_N_NEON,
+     &k_balls_N_NEON, &k_boxes_N_NEON, k_island_kernels},
 #elif HWY_TARGETS & HWY_WASM
     {"wasm", N_WASM::k_lanes, N_WASM::compute_rotations, N_WASM::farthest_point,
-     N_WASM::heights_above, N_WASM::mark_at_least, &k_manifolds_N_WASM, &k_balls_N_WASM,
-     &k_boxes_N_WASM, k_island_kernels},
+     N_WASM::extent_along, N_WASM::heights_above, N_WASM::mark_at_least, &k_manifolds_N_WASM,
+     &k_balls_N_WASM, &k_boxes_N_WASM, k_island_kernels},
 #endif
     {},
 };

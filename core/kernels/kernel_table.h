@@ -21,6 +21,7 @@ struct Kernels {
   void (*compute_rotations)(const QuatField& quats, const std::uint32_t* indices, std::size_t count,
                             Mat3* matrices);
   Farthest (*farthest_point)(const PointColumns& points, const Direction32& n);
+  Extent (*extent_along)(const PointColumns& points, const Direction32& n);
   Farthest (*heights_above)(const PointColumns& normals, const std::int64_t* offsets,
                             const Direction32& p, std::int64_t* heights);
   void (*mark_at_least)(const std::int64_t* heights, std::size_t count, std::int64_t bound,

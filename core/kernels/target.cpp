@@ -14,6 +14,7 @@ constexpr Kernels k_scalar{"scalar",
                            1,
                            compute_rotations_scalar,
                            farthest_point_scalar,
+                           extent_along_scalar,
                            heights_above_scalar,
                            mark_at_least_scalar,
                            &k_scalar_manifolds,
@@ -137,6 +138,10 @@ void compute_rotations(const QuatField& quats, std::span<const std::uint32_t> in
 
 Farthest farthest_point(const PointColumns& points, const Direction32& n) {
   return current().farthest_point(points, n);
+}
+
+Extent extent_along(const PointColumns& points, const Direction32& n) {
+  return current().extent_along(points, n);
 }
 
 Farthest heights_above(const PointColumns& normals, const std::int64_t* offsets,

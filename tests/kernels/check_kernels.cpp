@@ -171,6 +171,7 @@ Cloud random_cloud(std::size_t count, Random& random) {
 
 std::string compare_points(const Cloud& cloud) {
   const Farthest farthest = farthest_point_scalar(cloud.points(), cloud.direction);
+  const Extent extent = extent_along_scalar(cloud.points(), cloud.direction);
   std::vector<std::int64_t> expected(cloud.count());
   const Farthest highest =
       heights_above_scalar(cloud.points(), cloud.offsets.data(), cloud.direction, expected.data());
@@ -184,7 +185,8 @@ std::string compare_points(const Cloud& cloud) {
         heights_above(cloud.points(), cloud.offsets.data(), cloud.direction, heights.data());
     mark_at_least(heights.data(), cloud.count(), bound, marks.data());
     const bool same = farthest_point(cloud.points(), cloud.direction) == farthest &&
-                      found == highest && marks == expected_marks;
+                      extent_along(cloud.points(), cloud.direction) == extent && found == highest &&
+                      marks == expected_marks;
     if (same && heights == expected) return std::string();
     return std::to_string(cloud.count()) + " points\n";
   });

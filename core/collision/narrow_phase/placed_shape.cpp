@@ -2,6 +2,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/geometry/contact/polytope/polytope_pair.h"
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/shape_properties.h"
@@ -35,9 +36,9 @@ WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytop
   WorldBox box;
   for (int i = 0; i < 3; ++i) {
     const Vec3<Unit> axis{placed.rotation.x[i], placed.rotation.y[i], placed.rotation.z[i]};
-    const geometry::Fine above = geometry::support_of(polytope, axis).height + radius;
-    const geometry::Fine below = geometry::support_of(polytope, -axis).height + radius;
-    LKS_ASSERT(above + below >= 0);
+    const lanes::Extent extent = geometry::extent_along(polytope, axis);
+    LKS_ASSERT(extent.least <= extent.greatest);
+    const geometry::Fine below = radius - extent.least, above = radius + extent.greatest;
     box.lower[i] = placed.origin[i] - Position::from_raw(below >> k_bits) - k_rounding;
     box.upper[i] = placed.origin[i] + Position::from_raw(above >> k_bits) + k_rounding;
   }
@@ -49,9 +50,16 @@ WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytop
 ShapeFrame shape_frame(const geometry::AssetGeometry* asset, const Mat3& rotation) {
   const geometry::Solid* solid = solid_of(asset);
   if (solid == nullptr) return {rotation, {}};
+  LKS_ASSERT(solid->radius > Length{});
   const bool turned = solid->axes != Quat{};
   const Mat3 frame = turned ? multiply(rotation, transposed(to_matrix(solid->axes))) : rotation;
-  return {frame, rotate(frame, rounded<Position>(solid->centre))};
+  LKS_ASSERT(max(abs(solid->centre.x), max(abs(solid->centre.y), abs(solid->centre.z))) <
+             Length::from_integer(2000));
+  const geometry::RawVec centre = geometry::turned(frame, solid->centre);
+  const auto position = [](geometry::Fine x) {
+    return Position::from_raw(raw::round_shift(x, geometry::k_fine_bits - Position::frac_bits));
+  };
+  return {frame, {position(centre.x), position(centre.y), position(centre.z)}};
 }
 
 PlacedShape place(const Shape& shape, const geometry::AssetGeometry* asset,

@@ -326,7 +326,7 @@ HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& 
   made->tolerance = options.tolerance;
   made->surface = {made->vertices, made->faces, made->edges, solid->centre,
                    &geometry::polytope_kernels()};
-  made->columns.fill(made->vertices, made->faces);
+  made->columns.fill(made->vertices, made->faces, made->edges);
   made->surface.wide = &made->columns.view();
   made->surface.unevenness = unevenness_of(boundary.faces, made->faces, made->vertices);
   if (options.radius > Length{} && !made->round(options.radius, boundary.faces))

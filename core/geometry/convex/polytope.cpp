@@ -17,6 +17,12 @@ Support support_of(const Polytope& polytope, const Vec3<Unit>& n) {
   return best;
 }
 
+lanes::Extent extent_along(const Polytope& polytope, const Vec3<Unit>& n) {
+  if (polytope.wide != nullptr)
+    return lanes::extent_along(polytope.wide->vertices, {n.x.raw, n.y.raw, n.z.raw});
+  return {-support_of(polytope, -n).height, support_of(polytope, n).height};
+}
+
 int measure_heights(const Polytope& polytope, const RawVec& point, FaceHeights& heights) {
   const lanes::Direction32 narrow{static_cast<std::int32_t>(point.x),
                                   static_cast<std::int32_t>(point.y),
@@ -49,10 +55,21 @@ void mark_faces(const Polytope& polytope, const FaceHeights& heights, Fine bound
   if (count % 64 != 0) marks[count / 64] &= (std::uint64_t{1} << (count % 64)) - 1;
 }
 
+namespace {
+
+/// A half edge that leaves the vertex.
+std::size_t edge_from(const Polytope& polytope, int vertex) {
+  if (polytope.wide != nullptr) return polytope.wide->leaving[vertex];
+  std::size_t edge = 0;
+  while (polytope.edges[edge].origin != vertex)
+    ++edge;
+  return edge;
+}
+
+}  // namespace
+
 int most_opposed_face(const Polytope& polytope, int vertex, const Vec3<Unit>& direction) {
-  std::size_t first = 0;
-  while (polytope.edges[first].origin != vertex)
-    ++first;
+  const std::size_t first = edge_from(polytope, vertex);
   int best = polytope.edges[first].face;
   std::int64_t least =
       lockstone::dot(polytope.faces[static_cast<std::size_t>(best)].normal, direction).raw;

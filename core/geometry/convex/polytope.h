@@ -39,6 +39,7 @@ struct PolytopeLanes {
   lanes::PointColumns vertices;
   lanes::PointColumns normals;
   const Fine* offsets = nullptr;
+  const std::uint16_t* leaving = nullptr;  ///< a half edge from each vertex
 };
 
 /// Takes the volume of a rounded polytope's facets to its own, and their centre to its centre
@@ -113,6 +114,9 @@ struct Support {
 
 /// The vertex with the greatest n · v, the first of equals; exact.
 [[nodiscard]] Support support_of(const Polytope& polytope, const Vec3<Unit>& n);
+
+/// How far it reaches along n: the least and the greatest n · v, exact.
+[[nodiscard]] lanes::Extent extent_along(const Polytope& polytope, const Vec3<Unit>& n);
 
 using FaceHeights = std::array<Fine, 256>;  // room to fill up the last lanes
 static_assert(k_max_polytope_faces <= 256);

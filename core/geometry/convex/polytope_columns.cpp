@@ -26,15 +26,18 @@ lanes::PointColumns fill_columns(std::vector<std::int32_t>& out, const Items& it
 }  // namespace
 
 void PolytopeColumns::fill(std::span<const Vec3<Length>> vertices,
-                           std::span<const PolytopeFace> faces) {
+                           std::span<const PolytopeFace> faces, std::span<const HalfEdge> edges) {
   offsets_.assign(padded(faces.size()), faces.front().offset);
   for (std::size_t i = 0; i < faces.size(); ++i)
     offsets_[i] = faces[i].offset;
+  leaving_.assign(vertices.size(), 0);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    leaving_[edges[i].origin] = static_cast<std::uint16_t>(i);
   lanes_ = {fill_columns(
                 vertices_, vertices, [](const Vec3<Length>& v) -> const auto& { return v; }),
             fill_columns(
                 normals_, faces, [](const PolytopeFace& f) -> const auto& { return f.normal; }),
-            offsets_.data()};
+            offsets_.data(), leaving_.data()};
 }
 
 }  // namespace lockstone::geometry

@@ -31,6 +31,17 @@ struct Farthest {
 /// The point p with the greatest p · n, the first of equals. There is at least one. Sums wrap.
 [[nodiscard]] Farthest farthest_point(const PointColumns& points, const Direction32& n);
 
+/// The least and the greatest of p · n.
+struct Extent {
+  std::int64_t least = 0;
+  std::int64_t greatest = 0;
+
+  friend constexpr bool operator==(const Extent&, const Extent&) = default;
+};
+
+/// Of all points; there is at least one. Sums wrap.
+[[nodiscard]] Extent extent_along(const PointColumns& points, const Direction32& n);
+
 /// heights[i] = n_i · p − offsets[i]; returns the greatest, the first of equals. Sums wrap.
 Farthest heights_above(const PointColumns& normals, const std::int64_t* offsets,
                        const Direction32& p, std::int64_t* heights);
@@ -42,6 +53,7 @@ void mark_at_least(const std::int64_t* heights, std::size_t count, std::int64_t 
 
 /// The same, one at a time.
 [[nodiscard]] Farthest farthest_point_scalar(const PointColumns& points, const Direction32& n);
+[[nodiscard]] Extent extent_along_scalar(const PointColumns& points, const Direction32& n);
 Farthest heights_above_scalar(const PointColumns& normals, const std::int64_t* offsets,
                               const Direction32& p, std::int64_t* heights);
 void mark_at_least_scalar(const std::int64_t* heights, std::size_t count, std::int64_t bound,

@@ -62,6 +62,23 @@ HWY_ATTR Farthest farthest_point(const PointColumns& points, const Direction32& 
   return first_of_greatest(best, best_at);
 }
 
+HWY_ATTR Extent extent_along(const PointColumns& points, const Direction32& n) {
+  const Lanes x = broadcast(n[0]), y = broadcast(n[1]), z = broadcast(n[2]);
+  Lanes least = products_at(points, 0, x, y, z), greatest = least;
+  for (std::size_t i = k_lanes; i < points.count; i += k_lanes) {
+    const Lanes reach = products_at(points, i, x, y, z);
+    least = select_less(reach, least, reach, least);
+    greatest = select_less(greatest, reach, reach, greatest);
+  }
+  std::int64_t low[k_lanes], high[k_lanes];
+  store(least, low);
+  store(greatest, high);
+  Extent extent{low[0], high[0]};
+  for (std::size_t lane = 1; lane < k_lanes; ++lane)
+    extent = {std::min(extent.least, low[lane]), std::max(extent.greatest, high[lane])};
+  return extent;
+}
+
 HWY_ATTR Farthest heights_above(const PointColumns& normals, const std::int64_t* offsets,
                                 const Direction32& p, std::int64_t* heights) {
   const Lanes x = broadcast(p[0]), y = broadcast(p[1]), z = broadcast(p[2]);

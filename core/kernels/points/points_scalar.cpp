@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/kernels/points/points.h"
 #include "core/math/wide/scalar_lanes.h"
 
@@ -19,6 +21,15 @@ Farthest farthest_point_scalar(const PointColumns& points, const Direction32& n)
     if (reach > best.product) best = {i, reach};
   }
   return best;
+}
+
+Extent extent_along_scalar(const PointColumns& points, const Direction32& n) {
+  Extent extent{product(points, 0, n), product(points, 0, n)};
+  for (std::size_t i = 1; i < points.count; ++i) {
+    const std::int64_t reach = product(points, i, n);
+    extent = {std::min(extent.least, reach), std::max(extent.greatest, reach)};
+  }
+  return extent;
 }
 
 Farthest heights_above_scalar(const PointColumns& normals, const std::int64_t* offsets,

@@ -67,13 +67,16 @@ void collide_overlapping(const BoxMeeting& meeting, Manifold& out) {
 
 /// The boxes are apart: the separation of the first manifold that attains the distance is it.
 /// A face or an edge attains its axis' separation, which no distance is below; all other cases
-/// involve a vertex.
+/// involve a vertex. Where no edge separates more than the faces, the reference is known not to
+/// attain it.
 void collide_apart(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) {
   const Fine separation = edge.found ? edge.separation : meeting.faces.separation();
   LKS_ASSERT(separation > 0);
   if (!keeps(separation, meeting.pair.margin)) return meeting.part_by(edge.normal, out);
-  meeting.on_reference(out);
-  if (attains(out, separation)) return;
+  if (edge.found) {
+    meeting.on_reference(out);
+    if (attains(out, separation)) return;
+  }
   meeting.on_other(out);
   if (attains(out, separation)) return;
   if (edge.found && meeting.take_edges(edge, out)) return;

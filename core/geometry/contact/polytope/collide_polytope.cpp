@@ -42,9 +42,6 @@ struct Meeting {
     if (a.face < 0) return b.separation;
     return b.face < 0 ? a.separation : std::max(a.separation, b.separation);
   }
-  [[nodiscard]] Fine reference_separation() const {
-    return b_is_reference() ? b.separation : a.separation;
-  }
   /// Of the face that is not the reference.
   [[nodiscard]] Fine other_separation() const {
     if (a.face < 0 || b.face < 0) return -k_any_separation;
@@ -192,17 +189,22 @@ Manifold collide_overlapping(const Meeting& meeting) {
   return least_way_out(meeting);
 }
 
-/// Whether the manifold of a face, whose plane separates by `plane`, is where the polytopes are
-/// nearest, and pushes to the front of one-sided A: beside a rim several faces are as near, and one
-/// of them may lean back; a face clipped by the other polytope may be as near too.
-bool is_nearest(const Meeting& meeting, const Manifold& manifold, Fine plane, Fine separation) {
-  if (plane < separation - k_face_slack || !attains(manifold, separation)) return false;
+/// The manifold of a face, if that is where the polytopes are nearest and pushes to the front of
+/// one-sided A; else one without points. Beside a rim several faces are as near, and one of them
+/// may lean back; a face clipped by the other polytope may be as near too.
+Manifold nearest_face(const Meeting& meeting, bool b_is_reference, Fine separation) {
+  const FaceSupport& face = b_is_reference ? meeting.b : meeting.a;
+  LKS_ASSERT(separation > 0);
+  if (face.face < 0 || face.separation < separation - k_face_slack) return {};
+  const Manifold manifold = face_manifold_of(meeting, b_is_reference);
+  if (!attains(manifold, separation)) return {};
   const Vec3<Unit> n = rotate_inverse(meeting.pair.rotation_a, manifold.normal);
-  return meeting.toward_front.allows(-n);
+  return meeting.toward_front.allows(-n) ? manifold : Manifold{};
 }
 
 /// Some axis separates: the first manifold that attains the distance is it. A case that is neither
-/// a face nor two crossing edges involves a vertex.
+/// a face nor two crossing edges involves a vertex. Where no edge separates more than the faces,
+/// the reference is known not to be nearest.
 Manifold collide_apart(const Meeting& meeting, const EdgeSupport& edge) {
   const Fine separation = edge.found ? edge.separation : meeting.separation();
   LKS_ASSERT(separation > 0);
@@ -210,11 +212,13 @@ Manifold collide_apart(const Meeting& meeting, const EdgeSupport& edge) {
     return edge.found ? separated_by(lockstone::rotate(meeting.pair.rotation_a, edge.normal))
                       : Manifold{};
   }
-  const Manifold on_reference = reference_manifold(meeting);
-  if (is_nearest(meeting, on_reference, meeting.reference_separation(), separation))
-    return on_reference;
-  const Manifold on_other = other_manifold(meeting);
-  if (is_nearest(meeting, on_other, meeting.other_separation(), separation)) return on_other;
+  const bool b_is_reference = meeting.b_is_reference();
+  if (edge.found) {
+    const Manifold on_reference = nearest_face(meeting, b_is_reference, separation);
+    if (on_reference.count > 0) return on_reference;
+  }
+  const Manifold on_other = nearest_face(meeting, !b_is_reference, separation);
+  if (on_other.count > 0) return on_other;
   if (edge.found) {
     const CrossedEdges crossed = edge_manifold(meeting.pair, edge);
     if (crossed.crossing) return crossed.manifold;
@@ -263,10 +267,9 @@ Manifold collide_meeting(Meeting& meeting) {
     return best_edge(pair, threshold, meeting.toward_front, meeting.of_a, meeting.of_b_points);
   };
   if (meeting.separation() > 0) {
-    const Manifold on_reference = reference_manifold(meeting);
-    const Fine separation = meeting.separation();
-    if (is_nearest(meeting, on_reference, meeting.reference_separation(), separation))
-      return on_reference;
+    const Manifold on_reference =
+        nearest_face(meeting, meeting.b_is_reference(), meeting.separation());
+    if (on_reference.count > 0) return on_reference;
     return collide_apart(meeting, edge_above(meeting.separation()));
   }
   if (pair.from_a.own.one_sided) forget_backward_faces(meeting);

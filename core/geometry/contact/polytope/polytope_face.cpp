@@ -39,10 +39,17 @@ struct Shift {
 };
 constexpr int k_fine_per_shift = 8;
 
+/// A point on the lattice, below 2^29.
+struct LatticePoint {
+  std::int32_t x;
+  std::int32_t y;
+};
+
 struct IncidentVertex {
   Fine x;
   Fine y;
   Fine z;
+  LatticePoint flat;   ///< x and y on the lattice
   std::uint32_t edge;  ///< label of the edge that leaves it
   Shift moved;
 };
@@ -79,6 +86,9 @@ struct ReferenceFrame {
   int shift = 0;           ///< from fine to the lattice
 
   [[nodiscard]] std::int64_t lattice(Fine x) const { return raw::round_shift(x, shift); }
+  [[nodiscard]] LatticePoint flat(Fine x, Fine y) const {
+    return {static_cast<std::int32_t>(lattice(x)), static_cast<std::int32_t>(lattice(y))};
+  }
 };
 
 /// Square to the face's normal and to its first edge. Edges of merged faces may lean on the normal:
@@ -166,6 +176,7 @@ void incident_polygon(const ReferenceFrame& frame, int incident, IncidentPolygon
     polygon.add({frame.x_origin + lockstone::dot(p, frame.u_other).raw,
                  frame.y_origin + lockstone::dot(p, frame.v_other).raw,
                  frame.z_origin + lockstone::dot(p, frame.n_other).raw,
+                 {},
                  static_cast<std::uint32_t>(edge),
                  {}});
   }
@@ -182,6 +193,37 @@ int lattice_shift_of(const ReferenceFrame& frame, const Outline& outline,
   for (int i = 0; i < polygon.count; ++i)
     size |= static_cast<std::uint64_t>(magnitude_of(polygon[i].x) | magnitude_of(polygon[i].y));
   return std::max(0, static_cast<int>(std::bit_width(size)) - 29);
+}
+
+void place_on_lattice(const ReferenceFrame& frame, IncidentPolygon& polygon) {
+  for (int i = 0; i < polygon.count; ++i)
+    polygon[i].flat = frame.flat(polygon[i].x, polygon[i].y);
+}
+
+/// Of points on the lattice.
+struct LatticeBounds {
+  std::int64_t left = std::int64_t{1} << 30;
+  std::int64_t right = -(std::int64_t{1} << 30);
+  std::int64_t low = left;
+  std::int64_t high = right;
+
+  void add(std::int64_t x, std::int64_t y) {
+    left = std::min(left, x);
+    right = std::max(right, x);
+    low = std::min(low, y);
+    high = std::max(high, y);
+  }
+  /// Whether the corner that is farthest out is outside the side; else no point is.
+  [[nodiscard]] bool reach_outside(const Side& side) const {
+    return side.excess(side.dy > 0 ? right : left, side.dx > 0 ? low : high) > 0;
+  }
+};
+
+LatticeBounds bounds_of(const IncidentPolygon& polygon) {
+  LatticeBounds bounds;
+  for (int i = 0; i < polygon.count; ++i)
+    bounds.add(polygon[i].flat.x, polygon[i].flat.y);
+  return bounds;
 }
 
 Side side_between(const ReferenceFrame& frame, const FlatPoint& from, const FlatPoint& to,
@@ -231,18 +273,17 @@ bool snap(const ReferenceFrame& frame, const Side& side, std::int64_t excess,
   vertex.y -= y;
   const RawVec& m = frame.incident_normal;
   vertex.z += ((x >> 8) * m.x + (y >> 8) * m.y) / (m.z >> 8);
+  vertex.flat = frame.flat(vertex.x, vertex.y);
   return true;
 }
 
 using Excesses = std::array<std::int64_t, k_capacity>;
 
 /// Signed distances to the side times its length. Returns whether any is outside.
-bool is_outside(const ReferenceFrame& frame, const Side& side, const IncidentPolygon& polygon,
-                Excesses& excesses) {
+bool is_outside(const Side& side, const IncidentPolygon& polygon, Excesses& excesses) {
   bool outside = false;
   for (int i = 0; i < polygon.count; ++i) {
-    const std::int64_t excess =
-        side.excess(frame.lattice(polygon[i].x), frame.lattice(polygon[i].y));
+    const std::int64_t excess = side.excess(polygon[i].flat.x, polygon[i].flat.y);
     excesses[static_cast<std::size_t>(i)] = excess;
     outside = outside || excess > 0;
   }
@@ -254,7 +295,7 @@ bool is_outside(const ReferenceFrame& frame, const Side& side, const IncidentPol
 bool measure(const ReferenceFrame& frame, const Side& side, IncidentPolygon& polygon,
              Excesses& excesses) {
   LKS_ASSERT(polygon.count > 0);
-  if (!is_outside(frame, side, polygon, excesses)) return false;
+  if (!is_outside(side, polygon, excesses)) return false;
   const auto measured = std::span(excesses).first(static_cast<std::size_t>(polygon.count));
   const bool inside = std::ranges::any_of(measured, [](std::int64_t e) { return e < 0; });
   if (!inside || !may_snap(frame)) return true;
@@ -265,22 +306,25 @@ bool measure(const ReferenceFrame& frame, const Side& side, IncidentPolygon& pol
   return true;
 }
 
-IncidentVertex cut(const IncidentVertex& inside, std::int64_t depth, const IncidentVertex& outside,
-                   std::int64_t excess, std::uint32_t label) {
+IncidentVertex cut(const ReferenceFrame& frame, const IncidentVertex& inside, std::int64_t depth,
+                   const IncidentVertex& outside, std::int64_t excess, std::uint32_t label) {
   LKS_ASSERT(depth > 0 && excess > 0);
   const std::uint64_t share = share_inside(depth, excess);
   const auto lane = [share](std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(cut_between(a, b, share));
   };
-  return {cut_between(inside.x, outside.x, share),
-          cut_between(inside.y, outside.y, share),
+  const Fine x = cut_between(inside.x, outside.x, share);
+  const Fine y = cut_between(inside.y, outside.y, share);
+  return {x,
+          y,
           cut_between(inside.z, outside.z, share),
+          frame.flat(x, y),
           label,
           {lane(inside.moved.x, outside.moved.x), lane(inside.moved.y, outside.moved.y)}};
 }
 
-void clip(const Side& side, const IncidentPolygon& polygon, const Excesses& excesses,
-          IncidentPolygon& result) {
+void clip(const ReferenceFrame& frame, const Side& side, const IncidentPolygon& polygon,
+          const Excesses& excesses, IncidentPolygon& result) {
   result.count = 0;
   for (int i = 0; i < polygon.count; ++i) {
     const int next = i + 1 < polygon.count ? i + 1 : 0;
@@ -290,28 +334,26 @@ void clip(const Side& side, const IncidentPolygon& polygon, const Excesses& exce
     const std::int64_t to_excess = excesses[static_cast<std::size_t>(next)];
     if (from_excess <= 0) {
       const bool leaves_on_side = from_excess == 0 && to_excess > 0;
-      result.add({from.x, from.y, from.z, leaves_on_side ? side.label : from.edge, from.moved});
+      result.add(
+          {from.x, from.y, from.z, from.flat, leaves_on_side ? side.label : from.edge, from.moved});
       if (from_excess < 0 && to_excess > 0)
-        result.add(cut(from, -from_excess, to, to_excess, side.label));
+        result.add(cut(frame, from, -from_excess, to, to_excess, side.label));
     } else if (to_excess < 0) {
-      result.add(cut(to, -to_excess, from, from_excess, from.edge));
+      result.add(cut(frame, to, -to_excess, from, from_excess, from.edge));
     }
   }
 }
 
 /// The sides of the outline's bounds and a few steps around them, which vertices moved onto a side
 /// may be off by. Counter-clockwise from the lowest y.
-std::array<Side, 4> bounds_of(const ReferenceFrame& frame, const Outline& outline) {
-  constexpr std::int64_t far = std::int64_t{1} << 30;
-  std::int64_t left = far, right = -far, low = far, high = -far;
+std::array<Side, 4> sides_around(const ReferenceFrame& frame, const Outline& outline) {
+  LatticeBounds bounds;
   for (int i = 0; i < frame.face.edge_count; ++i) {
     const FlatPoint& p = outline[static_cast<std::size_t>(i)];
-    left = std::min(left, frame.lattice(p.x));
-    right = std::max(right, frame.lattice(p.x));
-    low = std::min(low, frame.lattice(p.y));
-    high = std::max(high, frame.lattice(p.y));
+    bounds.add(frame.lattice(p.x), frame.lattice(p.y));
   }
-  LKS_ASSERT(left <= right && low <= high && left > -far && right < far);
+  const auto& [left, right, low, high] = bounds;
+  LKS_ASSERT(left <= right && low <= high);
   constexpr std::int64_t around = 4;
   constexpr std::uint32_t label = k_bounds_label;
   return {{{left, low - around, 1, 0, label},
@@ -329,20 +371,23 @@ const IncidentPolygon& clip_to_sides(const ReferenceFrame& frame, const Outline&
   Excesses excesses;
   IncidentPolygon* from = &polygon;
   IncidentPolygon* to = &spare;
+  LatticeBounds bounds = bounds_of(polygon);
   for (int i = 0; i < frame.face.edge_count && from->count > 0; ++i) {
     const int next = i + 1 < frame.face.edge_count ? i + 1 : 0;
     const Side side =
         side_between(frame, outline[static_cast<std::size_t>(i)],
                      outline[static_cast<std::size_t>(next)], frame.face.first_edge + i);
     if (side.dx == 0 && side.dy == 0) continue;  // shorter than the lattice resolves
-    if (!measure(frame, side, *from, excesses)) continue;
-    clip(side, *from, excesses, *to);
+    if (!bounds.reach_outside(side) || !measure(frame, side, *from, excesses)) continue;
+    clip(frame, side, *from, excesses, *to);
     std::swap(from, to);
+    bounds = bounds_of(*from);
   }
-  for (const Side& side : bounds_of(frame, outline)) {
-    if (!is_outside(frame, side, *from, excesses)) continue;
-    clip(side, *from, excesses, *to);
+  for (const Side& side : sides_around(frame, outline)) {
+    if (!bounds.reach_outside(side) || !is_outside(side, *from, excesses)) continue;
+    clip(frame, side, *from, excesses, *to);
     std::swap(from, to);
+    bounds = bounds_of(*from);
   }
   return *from;
 }
@@ -401,6 +446,7 @@ Manifold face_manifold(const PolytopeFaceMeeting& meeting) {
   reference_outline(frame, outline);
   incident_polygon(frame, incident, polygon);
   frame.shift = lattice_shift_of(frame, outline, polygon);
+  place_on_lattice(frame, polygon);
   return manifold_of(frame, clip_to_sides(frame, outline, polygon, spare));
 }
 

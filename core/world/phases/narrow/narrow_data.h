@@ -26,13 +26,15 @@ struct NarrowData {
 
   WorldData& world;
   TickContacts& found;
-  std::span<const Pair> pairs;             // of the tick, ascending
-  ManifoldIds ids;                         // gives out manifold ids
-  std::vector<FoundContacts> of_pair;      // by pair
-  std::vector<ContactOrigin> origins;      // by manifold id
-  ManifoldNotes notes;                     // of this tick
-  ManifoldNotes notes_before;              // of the tick before
-  std::vector<Manifold> manifolds_before;  // by manifold id of the tick before
+  std::span<const Pair> pairs;               // of the tick, ascending
+  ManifoldIds ids;                           // gives out manifold ids
+  bool knows_turning_speeds = false;         // of the bodies that are awake
+  std::vector<std::int64_t> turning_speeds;  // by body: `turning_speed`
+  std::vector<FoundContacts> of_pair;        // by pair
+  std::vector<ContactOrigin> origins;        // by manifold id
+  ManifoldNotes notes;                       // of this tick
+  ManifoldNotes notes_before;                // of the tick before
+  std::vector<Manifold> manifolds_before;    // by manifold id of the tick before
   SeparatingAxes separating_axes;
 };
 

@@ -21,8 +21,8 @@ constexpr Length k_max_speculation = Length::from_integer(32);
 // How far a pair can close is rounded up to 1 mm, so that a trembling body keeps its margin.
 constexpr int k_reach_bits = 10;
 
-// Pairs that are worth a worker.
-constexpr std::uint32_t k_pair_grain = 8;
+// Pairs, and bodies, that are worth a worker.
+constexpr std::uint32_t k_pair_grain = 8, k_body_grain = 64;
 constexpr std::uint32_t k_number_piece = 256;
 
 // The way of a speed in a tick, m/s, Q32; rounded up to 1 mm.
@@ -43,17 +43,21 @@ Length thickness_of(const WorldData& world, std::uint32_t body) {
 // How far ahead a pair must look: as far as it can close in one tick. Where bodies pass each other,
 // no farther than they are thick, or a glancing pass would be taken for a hit.
 Length margin_of(const WorldData& world, const Pair& pair) {
+  return margin_of(world, pair, turning_speed(world, pair.a) + turning_speed(world, pair.b));
+}
+
+Length margin_of(const WorldData& world, const Pair& pair, std::int64_t turning) {
   const Vec3<Velocity> passing = world.bodies[pair.a].velocity - world.bodies[pair.b].velocity;
   const Length reach = max(way_in_tick(world.time_step, sum_of_magnitudes(passing)),
                            Length::from_raw(1 << k_reach_bits));
   const Length thickness = max(thickness_of(world, pair.a), thickness_of(world, pair.b));
-  const Length turn =
-      way_in_tick(world.time_step, turning_speed(world, pair.a) + turning_speed(world, pair.b));
+  const Length turn = way_in_tick(world.time_step, turning);
   return k_contact_margin +
          min(min(reach, thickness) + min(turn, k_max_speculation), k_max_speculation);
 }
 
 NarrowPhase::NarrowPhase(WorldData& world, TickContacts& found) : data_(world, found) {
+  data_.turning_speeds.resize(world.def.body_capacity);
   data_.of_pair.reserve(world.def.pair_capacity);
   data_.separating_axes.reserve(world.def.pair_capacity);
   make_room();
@@ -90,6 +94,7 @@ void NarrowPhase::run(std::span<const Pair> pairs, StepReport& report) {
   std::swap(data_.notes, data_.notes_before);
   data_.of_pair.resize(pairs.size());
   data_.separating_axes.begin(pairs.size());
+  find_turning_speeds();
   if (!collide_side_by_side()) collide_one_by_one();
   if (data_.ids.has_overflowed()) report.status = Status::capacity_exhausted;
   data_.found.has_elastic = data_.ids.has_elastic();
@@ -112,6 +117,18 @@ bool NarrowPhase::are_passing(std::uint32_t a, std::uint32_t b) const {
   const std::vector<ContactRecord>& records = data_.found.records;
   const auto at = std::ranges::lower_bound(records, pair, {}, bodies_of);
   return at != records.end() && bodies_of(*at) == pair && at->is_passing();
+}
+
+// Once for each body, unless most are in no pair.
+void NarrowPhase::find_turning_speeds() {
+  const std::span<const std::uint32_t> awake = data_.world.awake.list();
+  data_.knows_turning_speeds = awake.size() <= data_.pairs.size();
+  if (!data_.knows_turning_speeds) return;
+  data_.world.parallel.for_each({static_cast<std::uint32_t>(awake.size()), k_body_grain},
+                                [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                                  for (const std::uint32_t body : awake.subspan(first, end - first))
+                                    data_.turning_speeds[body] = turning_speed(data_.world, body);
+                                });
 }
 
 // Returns whether all manifolds found room.

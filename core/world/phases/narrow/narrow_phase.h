@@ -41,6 +41,7 @@ class NarrowPhase {
   [[nodiscard]] bool knows_triangles() { return scratch().triangles != nullptr; }
 
  private:
+  void find_turning_speeds();
   [[nodiscard]] bool collide_side_by_side();
   void collide_one_by_one();
   void collide_piece(std::uint32_t first, std::uint32_t end, PairScratch& scratch);
@@ -54,6 +55,8 @@ class NarrowPhase {
 /// As far as a pair can close in one tick, but no farther than the bodies are thick, or a glancing
 /// pass would be taken for a hit.
 [[nodiscard]] Length margin_of(const WorldData& world, const Pair& pair);
+/// `turning`: the sum of both `turning_speed`.
+[[nodiscard]] Length margin_of(const WorldData& world, const Pair& pair, std::int64_t turning);
 
 /// Removes the ghosts at the seams between static bodies (seams.cpp).
 void remove_seams(NarrowData& data);

@@ -63,6 +63,16 @@ void PairCollider::read_poses(const Pair& pair, Length margin, ManifoldInput& in
            key_of(a.orientation), key_of(b.orientation), margin};
 }
 
+Length PairCollider::margin_in_tick(const Pair& pair) const {
+  if (!data_.knows_turning_speeds) return margin_of(world_, pair);
+  const auto turning_of = [this](std::uint32_t body) {
+    return world_.bodies[body].is_awake() ? data_.turning_speeds[body] : 0;
+  };
+  const Length margin = margin_of(world_, pair, turning_of(pair.a) + turning_of(pair.b));
+  LKS_ASSERT(margin == margin_of(world_, pair));
+  return margin;
+}
+
 void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> before,
                            const Vec3<Unit>& last_axis) {
   const Pair pair = data_.pairs[index];
@@ -74,7 +84,7 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
     return;
   }
   if (is_one_way_pair(world_, pair)) return collide_one_way(index, before, timer);
-  const Length margin = margin_of(world_, pair);
+  const Length margin = margin_in_tick(pair);
   const bool is_recycled = is_found_at_recycling_poses(world_, pair);
   // Where they stay if the pair is to wait.
   WaitingBoxes::Entry& entry = scratch_.boxes.entries[scratch_.boxes.batch.size()];

@@ -30,6 +30,8 @@ class PairCollider {
   [[nodiscard]] std::uint32_t remembered_manifold(std::span<const ContactRecord> before) const;
   // Where it is, or at its recycling pose.
   [[nodiscard]] PlacedShape placed(std::uint32_t body, bool is_recycled) const;
+  // `margin_of`, by the turning speeds of the tick.
+  [[nodiscard]] Length margin_in_tick(const Pair& pair) const;
   void read_poses(const Pair& pair, Length margin, ManifoldInput& input) const;
   [[nodiscard]] bool are_primitives(const Pair& pair) const;
   [[nodiscard]] bool is_bounded_primitive(std::uint32_t body) const;
