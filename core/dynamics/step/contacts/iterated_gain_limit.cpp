@@ -8,6 +8,7 @@
 #include "core/base/reserved.h"
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/body/lane_bodies.h"
+#include "core/dynamics/body/rough_energy.h"
 #include "core/dynamics/contact/block_words.h"
 #include "core/math/wide/scalar_lanes.h"
 
@@ -22,6 +23,28 @@ std::int64_t share_of_both(std::int64_t word, std::int32_t share) {
   const auto part = [share](std::int64_t x) { return raw::round_shift(x * share, k_share_bits); };
   return lanes::scalar::pack(static_cast<std::int32_t>(part(low_word(word))),
                              static_cast<std::int32_t>(part(high_word(word))));
+}
+
+// The mass of a body as a multiple of that of its island's first body.
+BlockFloat mass_of(const SolverBody& body, BlockFloat& unit) {
+  LKS_ASSERT(body.is_pushed());
+  constexpr BlockFloat k_one{1 << 30, -30};
+  if (unit == BlockFloat{}) unit = body.inverse_mass;
+  return unit == body.inverse_mass ? k_one : quotient(unit, body.inverse_mass);
+}
+
+// With the velocities that impulses give.
+lanes::BodyVelocity sum_of(lanes::BodyVelocity free, const lanes::BodyVelocity& given) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    free.velocity[axis] = raw::saturating_add(free.velocity[axis], given.velocity[axis]);
+    free.spin[axis] = raw::saturating_add(free.spin[axis], given.spin[axis]);
+  }
+  return free;
+}
+
+void add_rough(std::uint64_t& sum, std::uint64_t energy) {
+  LKS_ASSERT(sum <= k_most_rough_energy && energy <= k_most_rough_energy);
+  sum = std::min(sum + energy, k_most_rough_energy);
 }
 
 // High operands of points are the largest impulses of the tick; at its beginning the same as the
@@ -63,6 +86,8 @@ void IteratedGainLimit::limit_gains(const ContactRun& run) {
 void IteratedGainLimit::limit(const ContactRun& run, Impulses which) {
   if (!find_hard_pushes(which)) return;
   LKS_ASSERT(islands_.size() == parts_.islands.count());
+  sum_rough_energies(which);
+  if (!find_gains()) return;
   sum_energies(which);
   choose_shares(which);
   scale_bodies(which);
@@ -110,6 +135,7 @@ bool IteratedGainLimit::find_hard_pushes(Impulses which) {
   for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
     const std::uint32_t island = parts_.islands.all().of(i);
     if (island == 0 || !may_gain(parts_.islands.tally(island), which)) continue;
+    if (any && islands_[island].is_pushed_hard) continue;
     if (is_below(motion_of(i, which).given, k_soft_push)) continue;
     LKS_ASSERT(parts_.bodies.constants()[i].is_pushed());
     if (!any) clear_sums();
@@ -126,14 +152,50 @@ void IteratedGainLimit::clear_sums() {
     island = {.knows_first = island.knows_first, .first = island.knows_first ? island.first : 0};
 }
 
+void IteratedGainLimit::sum_rough_energies(Impulses which) {
+  for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
+    Island& island = islands_[parts_.islands.all().of(i)];
+    if (!island.is_pushed_hard) continue;
+    const SolverBody& body = parts_.bodies.constants()[i];
+    const BlockFloat mass = mass_of(body, island.unit);
+    const lanes::BodyVelocity free = free_motion(i, which);
+    const lanes::BodyVelocity all =
+        which == Impulses::felt ? parts_.bodies.rows()[i] : sum_of(free, parts_.bodies.before()[i]);
+    LKS_ASSERT(mass.mantissa > 0);
+    add_rough(island.rough_free, rough_twice_energy(free, body.inverse_inertia, mass));
+    add_rough(island.rough_all, rough_twice_energy(all, body.inverse_inertia, mass));
+    add_rough(island.rough_error,
+              rough_shift(static_cast<std::uint64_t>(mass.mantissa), mass.exponent + 6) + 1);
+  }
+}
+
+// Leaves out islands that surely gain no more than half of the bound: most impulses of contacts
+// take energy. Returns whether any is left.
+bool IteratedGainLimit::find_gains() {
+  bool any = false;
+  for (Island& island : islands_) {
+    if (!island.is_pushed_hard) continue;
+    LKS_ASSERT(island.first >= 0 && island.rough_error > 0);
+    const std::uint64_t base = std::max(
+        island.rough_free, std::min(static_cast<std::uint64_t>(island.first), k_most_rough_energy));
+    const bool is_known =
+        island.rough_all < k_most_rough_energy && island.rough_error < k_most_rough_energy;
+    if (is_known &&
+        island.rough_all + island.rough_error <= base + (base >> (k_substep_gain_shift + 1))) {
+      island.is_pushed_hard = false;
+    } else {
+      any = true;
+    }
+  }
+  return any;
+}
+
 void IteratedGainLimit::sum_energies(Impulses which) {
   for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
     Island& island = islands_[parts_.islands.all().of(i)];
     if (!island.is_pushed_hard) continue;
     const SolverBody& body = parts_.bodies.constants()[i];
-    LKS_ASSERT(body.is_pushed());
-    if (island.unit == BlockFloat{}) island.unit = body.inverse_mass;
-    const BlockFloat mass = quotient(island.unit, body.inverse_mass);
+    const BlockFloat mass = mass_of(body, island.unit);
     const Motion motion = motion_of(i, which);
     const Vec3<Velocity> velocity = velocity_of_row(motion.free.velocity),
                          spin = velocity_of_row(motion.free.spin),

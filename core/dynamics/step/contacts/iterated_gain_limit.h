@@ -73,6 +73,10 @@ class IteratedGainLimit {
     std::int64_t square = 0;       // of the velocities that they give
     std::int64_t linear = 0;       // of these and the free ones
     std::int32_t share = 1 << 30;  // of the impulses that is given, Q30
+
+    // Rough energies, as of rough_twice_energy: without the impulses, with all of them, and by how
+    // much these may err besides a part of themselves.
+    std::uint64_t rough_free = 0, rough_all = 0, rough_error = 0;
   };
 
   void limit(const ContactRun& run, Impulses which);
@@ -81,6 +85,8 @@ class IteratedGainLimit {
   [[nodiscard]] bool may_gain(const IslandTally& island, Impulses which) const;
   [[nodiscard]] bool find_hard_pushes(Impulses which);
   void clear_sums();
+  void sum_rough_energies(Impulses which);
+  [[nodiscard]] bool find_gains();
   void add_first_energy(std::uint32_t number, BlockFloat mass, Island& island) const;
   void sum_energies(Impulses which);
   void choose_shares(Impulses which);
