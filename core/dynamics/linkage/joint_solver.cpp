@@ -66,6 +66,8 @@ void JointSolver::begin(const JointRun& run) {
   for (LinkedBody& body : system_.bodies) {
     body.centred = body.pushed && !body.in_balls && !body.touches && !body.is_among_contacts;
     body.rate = rate;
+    // Bodies that nothing pushes have a known motion.
+    if (!body.pushed) body.after = pose_after(run, body);
   }
   for (JointGroup& group : system_.groups)
     group.rate = system_.step.substep_rate();
@@ -76,11 +78,11 @@ void JointSolver::begin(const JointRun& run) {
   for (LinkedJoint& joint : system_.joints)
     load_impulses(joint, is_centred(joint.a) && is_centred(joint.b) ? 29 : 30);
   resist_pulls(run, system_);
-  // Poses after the substep: bodies that nothing pushes have a known motion.
-  for (LinkedBody& body : system_.bodies)
-    body.after = body.pushed ? body.pose : pose_after(run, body);
-  for (JointCluster& cluster : system_.clusters)
+  for (JointCluster& cluster : system_.clusters) {
+    for (const std::uint32_t body : system_.bodies_of(cluster))
+      system_.bodies[body].after = system_.bodies[body].pose;
     stages_.begin(cluster);
+  }
 }
 
 void JointSolver::end(const JointRun& run) {

@@ -108,11 +108,13 @@ void find_pulled_links(JointSystem& system) {
 }
 
 void resist_pulls(const JointRun& run, JointSystem& system) {
-  forget_pulls(system);
-  for (const LinkedJoint& joint : system.joints)
-    add_pull(system, joint, false);
-  for (const AddedJoint& joint : system.added)
-    if (joint.joint == AddedJoint::k_in_balls) add_last_pull(system, joint);
+  if (!system.joints.empty()) {  // else all pulls are as they were planned with
+    forget_pulls(system);
+    for (const LinkedJoint& joint : system.joints)
+      add_pull(system, joint, false);
+    for (const AddedJoint& joint : system.added)
+      if (joint.joint == AddedJoint::k_in_balls) add_last_pull(system, joint);
+  }
   for (LinkedBody& body : system.bodies)
     resist_pull(run, system, body);
 }

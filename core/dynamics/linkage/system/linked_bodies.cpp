@@ -24,7 +24,7 @@ std::uint32_t LinkedBodies::gather(std::uint32_t body, std::uint32_t solver,
   LKS_ASSERT(placed_.size() == bodies_.size());
   placed_.push_back(body);
   place = static_cast<std::uint32_t>(placed_.size());
-  bodies_.push_back(linked_body(record, rotation, solver));
+  set_body(record, rotation, solver, bodies_.emplace_back());
   return place - 1;
 }
 

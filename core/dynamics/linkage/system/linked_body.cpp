@@ -63,8 +63,8 @@ std::int64_t moving_speed(std::int64_t x) {
 
 }  // namespace
 
-LinkedBody linked_body(const BodyRecord& record, const Mat3& rotation, std::uint32_t solver) {
-  LinkedBody body;
+void set_body(const BodyRecord& record, const Mat3& rotation, std::uint32_t solver,
+              LinkedBody& body) {
   body.record = &record;
   body.pose = {record.position, record.orientation, rotation};
   set_principal(body);
@@ -73,7 +73,6 @@ LinkedBody linked_body(const BodyRecord& record, const Mat3& rotation, std::uint
   body.scale = record.scale_exponent;
   body.pushed = solver != 0 && record.is_dynamic();
   LKS_ASSERT(!body.pushed || record.inverse_mass > 0);
-  return body;
 }
 
 void set_least_inertia(const JointRun& run, LinkedBody& body, std::int64_t least) {

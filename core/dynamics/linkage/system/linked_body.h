@@ -17,7 +17,8 @@
 
 namespace lockstone {
 
-struct LinkedBody {
+struct alignas(64) LinkedBody {
+  // All that planning reads, in one line of the cache.
   const BodyRecord* record = nullptr;
   std::uint32_t solver = 0;        // number in the contact solver, 0 for a body that does not move
   int scale = 0;                   // exponent
@@ -28,11 +29,15 @@ struct LinkedBody {
   bool centred = false;            // velocity Verlet: half a push, a move, half a push
   bool moves_first = false;        // position Verlet: half a move, a push, half a move
   bool is_whole = false;           // moved with the rest of its island
+  bool pulled = false;             // an eighth as hard as needs more inertia
 
-  // Its joints.
+  // Its joints, and how hard they pull it.
   std::uint32_t first_joint = 0;  // in JointSystem::by_body
   std::uint32_t joint_count = 0;
-  std::uint32_t local = 0;  // number in its group
+  std::uint32_t local = 0;         // number in its group
+  std::int64_t pull = 0;           // sum of impulses at levers, per mass and scale, Q30
+  std::int64_t lever_inertia = 0;  // Q30: m·d² of its anchors, besides its own inertia
+  std::int64_t least_inertia = 0;  // Q30: a power of two, or 0 for its own inertia
 
   // Where it is, and where it will be after the substep with its present velocity.
   JointPose pose;
@@ -42,16 +47,10 @@ struct LinkedBody {
   RoundDivisor rate{};  // 1 / the time that it moves for
 
   // How heavy it is to turn.
-  std::int64_t least_inertia = 0;  // Q30: a power of two, or 0 for its own inertia
-  PrincipalInverse principal{};    // if it has such
+  PrincipalInverse principal{};  // if it has such
   bool has_principal = false;
   InverseInertia inverse_inertia{};
   InverseInertia inertia_ahead{};  // half a substep on, as far as is known
-
-  // How hard its joints pull it.
-  std::int64_t pull = 0;           // sum of impulses at levers, per mass and scale, Q30
-  std::int64_t lever_inertia = 0;  // Q30: m·d² of its anchors, besides its own inertia
-  bool pulled = false;             // an eighth as hard as needs more inertia
 
   // Velocities and energies noted by stages of the substep.
   lanes::BodyVelocity unpushed{};  // as the present stage found it
@@ -64,9 +63,9 @@ struct LinkedBody {
   BlockFloat mass{};            // as a part of that of its cluster's heaviest body
 };
 
-/// A body as a tick finds it.
-[[nodiscard]] LinkedBody linked_body(const BodyRecord& record, const Mat3& rotation,
-                                     std::uint32_t solver);
+/// Fills a new one as a tick finds the body.
+void set_body(const BodyRecord& record, const Mat3& rotation, std::uint32_t solver,
+              LinkedBody& body);
 
 /// Raises the principal moments to at least this (Q30; 0, or a power of two), or lowers them again.
 /// Keeps the angular velocity.
