@@ -63,12 +63,14 @@ void add_last_pull(JointSystem& system, const AddedJoint& joint) {
 // The least inertia with which the step resolves the swing. Some of it grows with the number of
 // links that swing against each other.
 std::int64_t needed_inertia(const JointSystem& system, const LinkedBody& body) {
+  LKS_ASSERT(body.pull >= 0);
   return 2 * raw::round_divide(body.pull, system.step.substep_rate());
 }
 
 // The least inertia with which a link swings.
 std::int64_t swung_inertia(const LinkedBody& body) {
   const auto& own = body.record->inertia;
+  LKS_ASSERT(body.lever_inertia >= 0);
   return min(own.x, min(own.y, own.z)).raw + body.lever_inertia;
 }
 

@@ -148,8 +148,12 @@ bool IteratedGainLimit::find_hard_pushes(Impulses which) {
 // The energy that an island had at the tick's beginning is summed once a tick.
 void IteratedGainLimit::clear_sums() {
   islands_.resize(parts_.islands.count());
-  for (Island& island : islands_)
-    island = {.knows_first = island.knows_first, .first = island.knows_first ? island.first : 0};
+  for (Island& island : islands_) {
+    const Island before = island;
+    island = {};
+    island.knows_first = before.knows_first;
+    if (before.knows_first) island.first = before.first;
+  }
 }
 
 void IteratedGainLimit::sum_rough_energies(Impulses which) {
@@ -162,30 +166,29 @@ void IteratedGainLimit::sum_rough_energies(Impulses which) {
     const lanes::BodyVelocity all =
         which == Impulses::felt ? parts_.bodies.rows()[i] : sum_of(free, parts_.bodies.before()[i]);
     LKS_ASSERT(mass.mantissa > 0);
-    add_rough(island.rough_free, rough_twice_energy(free, body.inverse_inertia, mass));
-    add_rough(island.rough_all, rough_twice_energy(all, body.inverse_inertia, mass));
-    add_rough(island.rough_error,
-              rough_shift(static_cast<std::uint64_t>(mass.mantissa), mass.exponent + 6) + 1);
+    const std::uint64_t error =
+        rough_shift(static_cast<std::uint64_t>(mass.mantissa), mass.exponent + 6) + 1;
+    add_rough(island.rough.free, rough_twice_energy(free, body.inverse_inertia, mass));
+    add_rough(island.rough.all, rough_twice_energy(all, body.inverse_inertia, mass));
+    add_rough(island.rough.all, error);
   }
 }
 
 // Leaves out islands that surely gain no more than half of the bound: most impulses of contacts
-// take energy. Returns whether any is left.
+// take energy. Returns whether any is left, of which the exact sums follow.
 bool IteratedGainLimit::find_gains() {
   bool any = false;
   for (Island& island : islands_) {
+    const RoughEnergies rough = island.rough;
+    island.exact = {};
     if (!island.is_pushed_hard) continue;
-    LKS_ASSERT(island.first >= 0 && island.rough_error > 0);
+    LKS_ASSERT(island.first >= 0 && rough.all > 0);
     const std::uint64_t base = std::max(
-        island.rough_free, std::min(static_cast<std::uint64_t>(island.first), k_most_rough_energy));
-    const bool is_known =
-        island.rough_all < k_most_rough_energy && island.rough_error < k_most_rough_energy;
-    if (is_known &&
-        island.rough_all + island.rough_error <= base + (base >> (k_substep_gain_shift + 1))) {
-      island.is_pushed_hard = false;
-    } else {
-      any = true;
-    }
+        rough.free, std::min(static_cast<std::uint64_t>(island.first), k_most_rough_energy));
+    const bool is_calm =
+        rough.all < k_most_rough_energy && rough.all <= base + (base >> (k_substep_gain_shift + 1));
+    island.is_pushed_hard = !is_calm;
+    any = any || !is_calm;
   }
   return any;
 }
@@ -202,9 +205,9 @@ void IteratedGainLimit::sum_energies(Impulses which) {
                          gain = velocity_of_row(motion.given.velocity),
                          spin_gain = velocity_of_row(motion.given.spin);
     const Vec3<Velocity> surface = surface_velocity(body.inverse_inertia, spin_gain);
-    add_energy(island.free, twice_energy(velocity, spin, body.inverse_inertia), mass);
-    add_energy(island.square, energy_product(gain, gain, spin_gain, surface), mass);
-    add_energy(island.linear, 2 * energy_product(velocity, gain, spin, surface), mass);
+    add_energy(island.exact.free, twice_energy(velocity, spin, body.inverse_inertia), mass);
+    add_energy(island.exact.square, energy_product(gain, gain, spin_gain, surface), mass);
+    add_energy(island.exact.linear, 2 * energy_product(velocity, gain, spin, surface), mass);
     if (which == Impulses::felt && !island.knows_first) add_first_energy(i, mass, island);
   }
   if (which != Impulses::felt) return;
@@ -234,13 +237,12 @@ void IteratedGainLimit::add_first_energy(std::uint32_t number, BlockFloat mass,
 // With a share s of the impulses the energy is free + s·linear + s²·square.
 void IteratedGainLimit::choose_shares(Impulses which) {
   for (Island& island : islands_) {
-    const std::int64_t base =
-        which == Impulses::to_come ? island.free : std::max(island.free, island.first);
-    LKS_ASSERT(base >= 0 && island.square >= 0);
-    const std::int64_t all =
-        raw::saturating_add(island.free, raw::saturating_add(island.linear, island.square));
+    const auto& [free, square, linear] = island.exact;
+    const std::int64_t base = which == Impulses::to_come ? free : std::max(free, island.first);
+    LKS_ASSERT(base >= 0 && square >= 0);
+    const std::int64_t all = raw::saturating_add(free, raw::saturating_add(linear, square));
     if (all > raw::saturating_add(base, base >> k_substep_gain_shift))
-      island.share = share_of(-(island.linear >> 1), island.square);
+      island.share = share_of(-(linear >> 1), square);
     LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
   }
 }

@@ -63,20 +63,28 @@ class IteratedGainLimit {
     lanes::BodyVelocity free{}, given{};
   };
 
-  // Of an island, twice energies by the mass of its first body.
-  struct Island {
-    BlockFloat unit{};             // inverse mass
-    bool is_pushed_hard = false;   // the energies are summed
-    bool knows_first = false;      // of this tick
-    std::int64_t first = 0;        // at the tick's beginning, and by its gravity and forces
-    std::int64_t free = 0;         // without the impulses
-    std::int64_t square = 0;       // of the velocities that they give
-    std::int64_t linear = 0;       // of these and the free ones
-    std::int32_t share = 1 << 30;  // of the impulses that is given, Q30
+  // Sums over an island's bodies of twice their energies, by the mass of the first.
+  struct Energies {
+    std::int64_t free;    // without the impulses
+    std::int64_t square;  // of the velocities that they give
+    std::int64_t linear;  // of these and the free ones
+  };
+  // The same as from rough_twice_energy.
+  struct RoughEnergies {
+    std::uint64_t free;
+    std::uint64_t all;  // with all impulses, and as much as it and the other may err
+  };
 
-    // Rough energies, as of rough_twice_energy: without the impulses, with all of them, and by how
-    // much these may err besides a part of themselves.
-    std::uint64_t rough_free = 0, rough_all = 0, rough_error = 0;
+  struct Island {
+    BlockFloat unit{};             // inverse mass of its first body
+    std::int32_t share = 1 << 30;  // of the impulses that is given, Q30
+    bool is_pushed_hard = false;   // and may have gained too much
+    bool knows_first = false;      // of this tick
+    std::int64_t first = 0;        // energy at the tick's beginning, and by its gravity and forces
+    union {
+      RoughEnergies rough{};  // until `find_gains`
+      Energies exact;         // from then on
+    };
   };
 
   void limit(const ContactRun& run, Impulses which);

@@ -83,9 +83,13 @@ void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& c
   });
   if (!pinched_.has_pressing()) return;
   pinched_.sort();
+  ImmovablePush
+      free{};  // the last that pinches no island: most contacts with level ground are alike
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     const ImmovablePush push = push_of(scene, contact);
-    if (push.island != 0 && pinched_.is_pinched(push)) tally(push.island).is_pinched = true;
+    if (push.island == 0 || push == free || tally(push.island).is_pinched) return;
+    tally(push.island).is_pinched = pinched_.is_pinched(push);
+    if (!tally(push.island).is_pinched) free = push;
   });
 }
 
