@@ -110,6 +110,7 @@ void find_pulled_links(JointSystem& system) {
 }
 
 void resist_pulls(const JointRun& run, JointSystem& system) {
+  LKS_ASSERT(system.joints.size() <= system.added.size());
   if (!system.joints.empty()) {  // else all pulls are as they were planned with
     forget_pulls(system);
     for (const LinkedJoint& joint : system.joints)
