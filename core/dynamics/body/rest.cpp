@@ -74,18 +74,22 @@ bool count_rest(BodyRecord& body, const RestRules& rules) {
   return body.rest_ticks >= rules.ticks;
 }
 
-void slow_down(BodyRecord& body, const Mat3& rotation, Velocity brake) {
+bool slow_down(BodyRecord& body, const Mat3& rotation, Velocity brake) {
   LKS_ASSERT(brake >= Velocity{});
   constexpr std::int64_t k_fast = std::int64_t{1} << 28;  // 1/16 m²/s², Q32
+  constexpr Velocity k_faster = Velocity::from_ratio(5, 16);
+  for (int i = 0; i < 3; ++i)
+    if (abs(body.velocity[i]) > k_faster) return false;
   const Vec3<Velocity> surface = surface_velocity(inverse_inertia(body, rotation), body.spin);
   const std::int64_t square = energy_product(body.velocity, body.velocity, body.spin, surface);
-  if (square >= k_fast) return;
+  if (square >= k_fast) return false;
   const auto speed = static_cast<std::int64_t>(isqrt(static_cast<std::uint64_t>(square) << 32));
   const std::int32_t kept = share_of(speed - brake.raw, speed);
   for (int i = 0; i < 3; ++i) {
     body.velocity[i].raw = raw::multiply_shift(body.velocity[i].raw, kept, k_share_bits);
     body.spin[i].raw = raw::multiply_shift(body.spin[i].raw, kept, k_share_bits);
   }
+  return true;
 }
 
 }  // namespace lockstone

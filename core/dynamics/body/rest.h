@@ -49,7 +49,8 @@ void end_pushes(BodyRecord& body, const RestRules& rules);
 /// Counts a tick of a watched body. Returns whether it is ready to sleep.
 bool count_rest(BodyRecord& body, const RestRules& rules);
 
-/// Takes so much off the body's speed, turning included; does nothing above 1/4 m/s.
-void slow_down(BodyRecord& body, const Mat3& rotation, Velocity brake);
+/// Takes so much off the body's speed, turning included; does nothing above 1/4 m/s. Returns
+/// whether it did.
+bool slow_down(BodyRecord& body, const Mat3& rotation, Velocity brake);
 
 }  // namespace lockstone

@@ -60,8 +60,7 @@ void IslandSleep::brake_unrested() {
         record.is_dynamic() && is_watched(record, rules) && record.rest_ticks < rules.ticks;
     if (!is_unrested || !islands_.rests_in_part(body)) continue;
     if (!world_.joint_graph.neighbours(body).empty()) continue;
-    slow_down(record, world_.cache.rotation(body), brake);
-    world_.refresh_bounds(body);
+    if (slow_down(record, world_.cache.rotation(body), brake)) world_.refresh_bounds(body);
   }
 }
 

@@ -83,13 +83,13 @@ void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& c
   });
   if (!pinched_.has_pressing()) return;
   pinched_.sort();
-  ImmovablePush
-      free{};  // the last that pinches no island: most contacts with level ground are alike
+  // Most contacts with level ground are alike: the last push that pinches no island.
+  ImmovablePush harmless{};
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     const ImmovablePush push = push_of(scene, contact);
-    if (push.island == 0 || push == free || tally(push.island).is_pinched) return;
+    if (push.island == 0 || push == harmless || tally(push.island).is_pinched) return;
     tally(push.island).is_pinched = pinched_.is_pinched(push);
-    if (!tally(push.island).is_pinched) free = push;
+    if (!tally(push.island).is_pinched) harmless = push;
   });
 }
 
