@@ -7,6 +7,7 @@
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/geometry/convex/solid.h"
+#include "core/geometry/distance/gjk/gjk.h"
 #include "core/math/roots.h"
 
 namespace lockstone {
@@ -56,10 +57,8 @@ ShapeFrame shape_frame(const geometry::AssetGeometry* asset, const Mat3& rotatio
   LKS_ASSERT(max(abs(solid->centre.x), max(abs(solid->centre.y), abs(solid->centre.z))) <
              Length::from_integer(2000));
   const geometry::RawVec centre = geometry::turned(frame, solid->centre);
-  const auto position = [](geometry::Fine x) {
-    return Position::from_raw(raw::round_shift(x, geometry::k_fine_bits - Position::frac_bits));
-  };
-  return {frame, {position(centre.x), position(centre.y), position(centre.z)}};
+  using geometry::to_position;
+  return {frame, {to_position(centre.x), to_position(centre.y), to_position(centre.z)}};
 }
 
 PlacedShape place(const Shape& shape, const geometry::AssetGeometry* asset,

@@ -77,6 +77,8 @@ bool count_rest(BodyRecord& body, const RestRules& rules) {
 bool slow_down(BodyRecord& body, const Mat3& rotation, Velocity brake) {
   LKS_ASSERT(brake >= Velocity{});
   constexpr std::int64_t k_fast = std::int64_t{1} << 28;  // 1/16 m²/s², Q32
+  // Most bodies that are faster need no inertia to tell. A little more, since surface speeds are
+  // rounded.
   constexpr Velocity k_faster = Velocity::from_ratio(5, 16);
   for (int i = 0; i < 3; ++i)
     if (abs(body.velocity[i]) > k_faster) return false;

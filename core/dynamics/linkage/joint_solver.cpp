@@ -78,11 +78,8 @@ void JointSolver::begin(const JointRun& run) {
   for (LinkedJoint& joint : system_.joints)
     load_impulses(joint, is_centred(joint.a) && is_centred(joint.b) ? 29 : 30);
   resist_pulls(run, system_);
-  for (JointCluster& cluster : system_.clusters) {
-    for (const std::uint32_t body : system_.bodies_of(cluster))
-      system_.bodies[body].after = system_.bodies[body].pose;
+  for (JointCluster& cluster : system_.clusters)
     stages_.begin(cluster);
-  }
 }
 
 void JointSolver::end(const JointRun& run) {

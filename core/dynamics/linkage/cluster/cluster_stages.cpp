@@ -69,8 +69,11 @@ void ClusterStages::begin(JointCluster& cluster) {
   for (JointGroup& group : system_.groups_of(cluster))
     group.only_locks = only_locks;
   cluster.moves_first = can_move_first(cluster);
-  for (const std::uint32_t body : system_.bodies_of(cluster))
-    system_.bodies[body].moves_first = cluster.moves_first;
+  for (const std::uint32_t index : system_.bodies_of(cluster)) {
+    LinkedBody& body = system_.bodies[index];
+    body.moves_first = cluster.moves_first;
+    body.after = body.pose;
+  }
 }
 
 void ClusterStages::prepare(const JointRun& run, JointCluster& cluster) {

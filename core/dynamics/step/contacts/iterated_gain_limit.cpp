@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <lockstone/assert.h>
 
@@ -23,14 +24,6 @@ std::int64_t share_of_both(std::int64_t word, std::int32_t share) {
   const auto part = [share](std::int64_t x) { return raw::round_shift(x * share, k_share_bits); };
   return lanes::scalar::pack(static_cast<std::int32_t>(part(low_word(word))),
                              static_cast<std::int32_t>(part(high_word(word))));
-}
-
-// The mass of a body as a multiple of that of its island's first body.
-BlockFloat mass_of(const SolverBody& body, BlockFloat& unit) {
-  LKS_ASSERT(body.is_pushed());
-  constexpr BlockFloat k_one{1 << 30, -30};
-  if (unit == BlockFloat{}) unit = body.inverse_mass;
-  return unit == body.inverse_mass ? k_one : quotient(unit, body.inverse_mass);
 }
 
 // With the velocities that impulses give.
@@ -149,19 +142,32 @@ bool IteratedGainLimit::find_hard_pushes(Impulses which) {
 void IteratedGainLimit::clear_sums() {
   islands_.resize(parts_.islands.count());
   for (Island& island : islands_) {
-    const Island before = island;
-    island = {};
+    const Island before = std::exchange(island, {});
     island.knows_first = before.knows_first;
-    if (before.knows_first) island.first = before.first;
+    island.first = before.first;
+    LKS_ASSERT(island.knows_first || island.first == 0);
   }
 }
 
-void IteratedGainLimit::sum_rough_energies(Impulses which) {
+// Calls `work(number, body, mass, island)` for each body of an island that is pushed hard; `mass`
+// as a multiple of that of the island's first body.
+template <class Work>
+void IteratedGainLimit::for_each_hard_pushed(Work work) {
+  constexpr BlockFloat k_same{1 << 30, -30};
   for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
     Island& island = islands_[parts_.islands.all().of(i)];
     if (!island.is_pushed_hard) continue;
     const SolverBody& body = parts_.bodies.constants()[i];
-    const BlockFloat mass = mass_of(body, island.unit);
+    LKS_ASSERT(body.is_pushed());
+    if (island.unit == BlockFloat{}) island.unit = body.inverse_mass;
+    const bool is_alike = island.unit == body.inverse_mass;
+    work(i, body, is_alike ? k_same : quotient(island.unit, body.inverse_mass), island);
+  }
+}
+
+void IteratedGainLimit::sum_rough_energies(Impulses which) {
+  for_each_hard_pushed([&](std::uint32_t i, const SolverBody& body, BlockFloat mass,
+                           Island& island) {
     const lanes::BodyVelocity free = free_motion(i, which);
     const lanes::BodyVelocity all =
         which == Impulses::felt ? parts_.bodies.rows()[i] : sum_of(free, parts_.bodies.before()[i]);
@@ -171,7 +177,7 @@ void IteratedGainLimit::sum_rough_energies(Impulses which) {
     add_rough(island.rough.free, rough_twice_energy(free, body.inverse_inertia, mass));
     add_rough(island.rough.all, rough_twice_energy(all, body.inverse_inertia, mass));
     add_rough(island.rough.all, error);
-  }
+  });
 }
 
 // Leaves out islands that surely gain no more than half of the bound: most impulses of contacts
@@ -194,25 +200,24 @@ bool IteratedGainLimit::find_gains() {
 }
 
 void IteratedGainLimit::sum_energies(Impulses which) {
-  for (std::uint32_t i = 1; i < parts_.bodies.count(); ++i) {
-    Island& island = islands_[parts_.islands.all().of(i)];
-    if (!island.is_pushed_hard) continue;
-    const SolverBody& body = parts_.bodies.constants()[i];
-    const BlockFloat mass = mass_of(body, island.unit);
-    const Motion motion = motion_of(i, which);
-    const Vec3<Velocity> velocity = velocity_of_row(motion.free.velocity),
-                         spin = velocity_of_row(motion.free.spin),
-                         gain = velocity_of_row(motion.given.velocity),
-                         spin_gain = velocity_of_row(motion.given.spin);
-    const Vec3<Velocity> surface = surface_velocity(body.inverse_inertia, spin_gain);
-    add_energy(island.exact.free, twice_energy(velocity, spin, body.inverse_inertia), mass);
-    add_energy(island.exact.square, energy_product(gain, gain, spin_gain, surface), mass);
-    add_energy(island.exact.linear, 2 * energy_product(velocity, gain, spin, surface), mass);
-    if (which == Impulses::felt && !island.knows_first) add_first_energy(i, mass, island);
-  }
+  for_each_hard_pushed(
+      [&](std::uint32_t i, const SolverBody& body, BlockFloat mass, Island& island) {
+        const Motion motion = motion_of(i, which);
+        const Vec3<Velocity> velocity = velocity_of_row(motion.free.velocity),
+                             spin = velocity_of_row(motion.free.spin),
+                             gain = velocity_of_row(motion.given.velocity),
+                             spin_gain = velocity_of_row(motion.given.spin);
+        const Vec3<Velocity> surface = surface_velocity(body.inverse_inertia, spin_gain);
+        add_energy(island.exact.free, twice_energy(velocity, spin, body.inverse_inertia), mass);
+        add_energy(island.exact.square, energy_product(gain, gain, spin_gain, surface), mass);
+        add_energy(island.exact.linear, 2 * energy_product(velocity, gain, spin, surface), mass);
+        if (which == Impulses::felt && !island.knows_first) add_first_energy(i, mass, island);
+      });
   if (which != Impulses::felt) return;
-  for (Island& island : islands_)
+  for (Island& island : islands_) {
     island.knows_first = island.knows_first || island.is_pushed_hard;
+    LKS_ASSERT(island.knows_first || island.first == 0);
+  }
 }
 
 // Of the velocities at the tick's beginning and of those that gravity and forces give in the tick,

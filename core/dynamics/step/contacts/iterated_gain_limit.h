@@ -93,6 +93,8 @@ class IteratedGainLimit {
   [[nodiscard]] bool may_gain(const IslandTally& island, Impulses which) const;
   [[nodiscard]] bool find_hard_pushes(Impulses which);
   void clear_sums();
+  template <class Work>
+  void for_each_hard_pushed(Work work);
   void sum_rough_energies(Impulses which);
   [[nodiscard]] bool find_gains();
   void add_first_energy(std::uint32_t number, BlockFloat mass, Island& island) const;

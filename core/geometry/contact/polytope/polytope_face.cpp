@@ -202,8 +202,10 @@ void place_on_lattice(const ReferenceFrame& frame, IncidentPolygon& polygon) {
 
 /// Of points on the lattice.
 struct LatticeBounds {
-  std::int64_t left = std::int64_t{1} << 30;
-  std::int64_t right = -(std::int64_t{1} << 30);
+  static constexpr std::int64_t k_far = std::int64_t{1} << 30;
+
+  std::int64_t left = k_far;
+  std::int64_t right = -k_far;
   std::int64_t low = left;
   std::int64_t high = right;
 
@@ -353,7 +355,8 @@ std::array<Side, 4> sides_around(const ReferenceFrame& frame, const Outline& out
     bounds.add(frame.lattice(p.x), frame.lattice(p.y));
   }
   const auto& [left, right, low, high] = bounds;
-  LKS_ASSERT(left <= right && low <= high);
+  LKS_ASSERT(left <= right && low <= high && left > -LatticeBounds::k_far &&
+             right < LatticeBounds::k_far);
   constexpr std::int64_t around = 4;
   constexpr std::uint32_t label = k_bounds_label;
   return {{{left, low - around, 1, 0, label},
