@@ -35,6 +35,11 @@ namespace lockstone::geometry {
 void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                    Length margin, bool flip, const HeldFeatures& held, Manifold& out);
 
+/// The same where `out` is the manifold on the reference face, which alone does not settle how they
+/// meet. No face parts them; no edges are held, and of overlapping boxes not the other face.
+void collide_boxes_beyond(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                          Length margin, bool flip, const HeldFeatures& held, Manifold& out);
+
 /// Whether this feature of a point of two boxes is that of two edges.
 [[nodiscard]] bool is_of_edges(std::uint32_t feature);
 

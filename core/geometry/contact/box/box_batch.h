@@ -10,8 +10,9 @@
 
 namespace lockstone::geometry {
 
-/// Some pairs of boxes at once. Those that meet on a face, as nearly all in a pile, are settled:
-/// their manifolds are those of `collide`, bit for bit. The others are left to it.
+/// Some pairs of boxes at once. Their manifolds are those of `collide`, bit for bit. Faces and
+/// points on them are found side by side, which settles most pairs of a pile; for the others that
+/// is where the search for edges and vertices begins.
 class BoxBatch {
  public:
   static constexpr std::size_t k_capacity = lanes::k_box_pairs;
@@ -23,17 +24,27 @@ class BoxBatch {
   [[nodiscard]] bool is_full() const { return size_ == k_capacity; }
   void clear() { size_ = 0; }
 
-  /// Of a pair that it takes; there is room.
+  /// Of a pair that it takes, in which no edges are held; there is room.
   void add(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
            const HeldFeatures& held);
   void collide();
 
-  /// After `collide`. A settled pair has points.
-  [[nodiscard]] bool is_settled(std::size_t pair) const { return counts_[pair] > 0; }
+  /// After `collide`: whether faces alone settle the pair.
+  [[nodiscard]] bool is_settled(std::size_t pair) const { return stages_[pair] == Stage::settled; }
+  /// After `collide`.
   void write(std::size_t pair, Manifold& out) const;
 
  private:
-  void settle(std::size_t pair);
+  /// How much of a pair's manifold is found.
+  enum class Stage : std::uint8_t {
+    nothing,       ///< a face parts them, or the other face is held
+    on_reference,  ///< the manifold on the reference face
+    settled,       ///< which is that of the pair
+  };
+
+  [[nodiscard]] Stage settle(std::size_t pair);
+  void write_reference(std::size_t pair, Manifold& out) const;
+  void finish(std::size_t pair, Manifold& out) const;
 
   std::array<lanes::BoxSource, k_capacity> sources_{};
   std::array<HeldFeatures, k_capacity> held_{};
@@ -43,6 +54,7 @@ class BoxBatch {
   std::array<std::int64_t, k_capacity> flips_{};    // 1: the first box is the manifold's B
   std::array<std::int64_t, k_capacity> swapped_{};  // 1: the reference box is
   std::array<std::uint8_t, k_capacity> counts_{};
+  std::array<Stage, k_capacity> stages_{};
   std::size_t size_ = 0;
 };
 

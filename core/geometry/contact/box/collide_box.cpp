@@ -65,18 +65,15 @@ void collide_overlapping(const BoxMeeting& meeting, Manifold& out) {
   meeting.take_nearest(out);
 }
 
-/// The boxes are apart: the separation of the first manifold that attains the distance is it.
-/// A face or an edge attains its axis' separation, which no distance is below; all other cases
-/// involve a vertex. Where no edge separates more than the faces, the reference is known not to
-/// attain it.
+/// The boxes are apart, and `out` is the manifold on the reference: the separation of the first
+/// manifold that attains the distance is it. A face or an edge attains its axis' separation, which
+/// no distance is below; all other cases involve a vertex. Where no edge separates more than the
+/// faces, the reference is known not to attain it.
 void collide_apart(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) {
   const Fine separation = edge.found ? edge.separation : meeting.faces.separation();
   LKS_ASSERT(separation > 0);
   if (!keeps(separation, meeting.pair.margin)) return meeting.part_by(edge.normal, out);
-  if (edge.found) {
-    meeting.on_reference(out);
-    if (attains(out, separation)) return;
-  }
+  if (edge.found && attains(out, separation)) return;
   meeting.on_other(out);
   if (attains(out, separation)) return;
   if (edge.found && meeting.take_edges(edge, out)) return;
@@ -109,49 +106,78 @@ bool keep_edges(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) 
   return !is_better_than_held(out, normal, edge.separation) && meeting.take_edges(edge, out);
 }
 
+/// Finds the best faces of both and the reference. False where one of them parts the boxes: then
+/// `out` is what is left.
+bool choose_faces(BoxMeeting& meeting, Manifold& out) {
+  const BoxPair& pair = meeting.pair;
+  FaceChoice& faces = meeting.faces;
+  faces.a = best_face_of_a(pair);
+  if (!keeps(faces.a.separation, pair.margin)) {
+    meeting.part_by(signed_axis(pair.a.rotation.column(faces.a.axis), faces.a.sign), out);
+    return false;
+  }
+  faces.b = best_face_of_b(pair);
+  if (!keeps(faces.b.separation, pair.margin)) {
+    meeting.part_by(signed_axis(pair.b.rotation.column(faces.b.axis), faces.b.sign), out);
+    return false;
+  }
+  faces.b_is_reference = faces.b.separation > second_face_threshold(faces.a.separation);
+  LKS_ASSERT(faces.a.separation <= faces.separation() && faces.b.separation <= faces.separation());
+  return true;
+}
+
+/// `out` is the manifold on the reference, which alone does not settle how the boxes meet.
+void collide_beyond(const BoxMeeting& meeting, Manifold& out) {
+  const Fine separation = meeting.faces.separation();
+  if (separation > 0) return collide_apart(meeting, best_edge(meeting.pair, separation), out);
+  const EdgeAxis edge = best_edge(meeting.pair, std::min(edge_threshold(separation), Fine{0}));
+  if (!edge.found) return collide_overlapping(meeting, out);
+  if (edge.separation > 0) return collide_apart(meeting, edge, out);
+  // The face's plane may show more overlap than its points do: an edge that lies nearly along it
+  // and protrudes beyond it overlaps most where there is no face.
+  const Fine deepest = deepest_of(out);
+  if (deepest <= 0 && edge.separation <= edge_threshold(deepest)) return;
+  if (!meeting.take_edges(edge, out)) meeting.take_nearest(out);
+}
+
+/// Puts the manifold on the reference into `out`. Returns whether the pair is settled by it.
+bool settle_on_reference(const BoxMeeting& meeting, Manifold& out) {
+  const FaceChoice& faces = meeting.faces;
+  const Fine separation = faces.separation();
+  if (separation > 0) {
+    meeting.on_reference(out);
+    return attains(out, separation);
+  }
+  // For a box that lies on a face, the polygon mostly shows that the boxes overlap along every axis
+  // by too much for an edge.
+  const Fine threshold = std::min(edge_threshold(separation), Fine{0});
+  const bool shallow = -separation <= meeting.pair.half_a[faces.a.axis] / 8;
+  const Fine wanted = !shallow ? -1 : threshold < 0 ? -threshold + k_agreement : 0;
+  return meeting.on_face_of(faces.b_is_reference, wanted, out);
+}
+
 }  // namespace
 
 void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                    Length margin, bool flip, const HeldFeatures& held, Manifold& out) {
   const BoxPair pair = make_box_pair(a, b, offset, margin);
   BoxMeeting meeting{pair, {}, flip, held};
-  FaceChoice& faces = meeting.faces;
-  faces.a = best_face_of_a(pair);
-  if (!keeps(faces.a.separation, margin))
-    return meeting.part_by(signed_axis(a.rotation.column(faces.a.axis), faces.a.sign), out);
-  faces.b = best_face_of_b(pair);
-  if (!keeps(faces.b.separation, margin))
-    return meeting.part_by(signed_axis(b.rotation.column(faces.b.axis), faces.b.sign), out);
-  faces.b_is_reference = faces.b.separation > second_face_threshold(faces.a.separation);
+  if (!choose_faces(meeting, out)) return;
+  if (meeting.faces.separation() <= 0) {
+    hold_face(meeting, out);
+    if (is_of_edges(held.first()) && keep_edges(meeting, edge_axis_of(pair, held.first()), out))
+      return;
+  }
+  if (!settle_on_reference(meeting, out)) collide_beyond(meeting, out);
+}
 
-  const Fine separation = faces.separation();
-  LKS_ASSERT(faces.a.separation <= separation && faces.b.separation <= separation);
-  if (separation > 0) {
-    meeting.on_reference(out);
-    if (attains(out, separation)) return;
-    return collide_apart(meeting, best_edge(pair, separation), out);
-  }
-  hold_face(meeting, out);
-  if (is_of_edges(held.first()) && keep_edges(meeting, edge_axis_of(pair, held.first()), out))
-    return;
-  // For a box that lies on a face, the polygon mostly shows that the boxes overlap along every axis
-  // by too much for an edge.
-  const Fine threshold = std::min(edge_threshold(separation), Fine{0});
-  const Fine wanted = threshold < 0 ? -threshold + k_agreement : 0;
-  const bool shallow = -separation <= pair.half_a[faces.a.axis] / 8;
-  if (shallow && meeting.on_face_of(faces.b_is_reference, wanted, out)) return;
-  const EdgeAxis edge = best_edge(pair, threshold);
-  if (!edge.found) {
-    if (!shallow) meeting.on_reference(out);
-    return collide_overlapping(meeting, out);
-  }
-  if (edge.separation > 0) return collide_apart(meeting, edge, out);
-  // The face's plane may show more overlap than its points do: an edge that lies nearly along it
-  // and protrudes beyond it overlaps most where there is no face.
-  if (!shallow) meeting.on_reference(out);
-  const Fine deepest = deepest_of(out);
-  if (deepest <= 0 && edge.separation <= edge_threshold(deepest)) return;
-  if (!meeting.take_edges(edge, out)) meeting.take_nearest(out);
+void collide_boxes_beyond(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                          Length margin, bool flip, const HeldFeatures& held, Manifold& out) {
+  const BoxPair pair = make_box_pair(a, b, offset, margin);
+  BoxMeeting meeting{pair, {}, flip, held};
+  const bool meets = choose_faces(meeting, out);
+  LKS_ASSERT(meets && !is_of_edges(held.first()));
+  if (meets) collide_beyond(meeting, out);
 }
 
 }  // namespace lockstone::geometry

@@ -182,37 +182,36 @@ void PairCollider::collide_primitives(std::uint32_t index, std::span<const Conta
 int PairCollider::collide_alone(const WaitingBoxes::Entry& entry) {
   const Pair pair = data_.pairs[entry.index];
   const Shape shape_a = world_.bodies[pair.a].shape(), shape_b = world_.bodies[pair.b].shape();
-  const std::uint32_t id = data_.ids.take(scratch_, 1);
-  Manifold& manifold = id == ManifoldIds::k_none ? scratch_.part_contacts.contacts.front().manifold
-                                                 : data_.found.manifolds[id];
   const std::vector<Mat3>& turned = rotations_of(pair);
-  lockstone::collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]},
-                     saturated<Length>(entry.input.offset), entry.input.margin, entry.held,
-                     manifold);
-  if (manifold.count == 0) {
-    data_.separating_axes.note(entry.index, pair, manifold.normal);
-    ManifoldIds::release(scratch_, id);
-    return 0;
-  }
-  if (id != ManifoldIds::k_none) fill_found(entry, id);
-  return 1;
+  return add_found(entry, [&](Manifold& manifold) {
+    lockstone::collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]},
+                       saturated<Length>(entry.input.offset), entry.input.margin, entry.held,
+                       manifold);
+  });
 }
 
 void PairCollider::collide_waiting() {
   geometry::BoxBatch& batch = scratch_.boxes.batch;
   batch.collide();
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    const WaitingBoxes::Entry& entry = scratch_.boxes.entries[i];
-    if (!batch.is_settled(i)) {
-      collide_alone(entry);
-      continue;
-    }
-    const std::uint32_t id = data_.ids.take(scratch_, 1);
-    if (id == ManifoldIds::k_none) continue;
-    batch.write(i, data_.found.manifolds[id]);
-    fill_found(entry, id);
-  }
+  for (std::size_t i = 0; i < batch.size(); ++i)
+    add_found(scratch_.boxes.entries[i], [&](Manifold& manifold) { batch.write(i, manifold); });
   batch.clear();
+}
+
+// `find` fills the manifold where it stays. Returns the number of manifolds.
+template <class Find>
+int PairCollider::add_found(const WaitingBoxes::Entry& entry, Find&& find) {
+  const std::uint32_t id = data_.ids.take(scratch_, 1);
+  Manifold& manifold = id == ManifoldIds::k_none ? scratch_.part_contacts.contacts.front().manifold
+                                                 : data_.found.manifolds[id];
+  find(manifold);
+  if (manifold.count == 0) {
+    data_.separating_axes.note(entry.index, data_.pairs[entry.index], manifold.normal);
+    ManifoldIds::release(scratch_, id);
+    return 0;
+  }
+  if (id != ManifoldIds::k_none) fill_found(entry, id);
+  return 1;
 }
 
 // `known`: the manifold of a tick ago. The pose delta of the bodies since that manifold was found

@@ -42,6 +42,8 @@ class PairCollider {
                        PairTimer& timer);
   int collide_alone(const WaitingBoxes::Entry& entry);
   void collide_waiting();
+  template <class Find>
+  int add_found(const WaitingBoxes::Entry& entry, Find&& find);
   void add_known(std::uint32_t index, std::uint32_t known, const ManifoldInput& input,
                  std::span<const ContactRecord> before);
   void add_contacts(std::uint32_t index, std::span<const PartContact> parts,
