@@ -125,6 +125,40 @@ TEST(TimeOfImpact, KeepsTheTargetOnRandomSweeps) {
   EXPECT_LT(states[static_cast<std::size_t>(TimeOfImpactState::unfinished)], 3);
 }
 
+// A small body close above a face of a wall that moves and turns, carried along but for a little.
+TEST(TimeOfImpact, FollowsBodiesThatAFaceCarriesAlong) {
+  Dice dice;
+  int separated = 0, hits = 0, at_once = 0;
+  for (int i = 0; i < 500; ++i) {
+    Mover wall = random_mover(dice, 2, 1, 3, 0.2);
+    wall.shape = convex(Shape::box(metres(dice.uniform(1, 3)), metres(0.5), metres(2)));
+    wall.shape.rotation = to_matrix(wall.sweep.start.orientation);
+    wall.origin = {};
+    wall.sweep.translation = positions(dice.direction() * 0.1L);
+    Mover body = random_mover(dice, static_cast<int>(dice.between(0, 2)), 0.05, 0.2, 0);
+    const Real above = 0.5L + body.radius() + static_cast<Real>(dice.uniform(0, 0.05));
+    const RealVec at{static_cast<Real>(dice.uniform(-0.9, 0.9)), above, 0};
+    body.sweep.start.position =
+        wall.sweep.start.position + rotate(wall.shape.rotation, positions(at));
+    const Transform end = carried(body.sweep.start, wall.sweep);
+    const RealVec aside = dice.direction() * static_cast<Real>(dice.uniform(0, 0.05));
+    body.sweep.translation = end.position - body.sweep.start.position + positions(aside);
+    body.sweep.rotation = wall.sweep.rotation;
+    const bool first = dice.chance(2);
+    const TimeOfImpact found = first ? time_of_impact(wall.swept(), body.swept())
+                                     : time_of_impact(body.swept(), wall.swept());
+    expect_lawful(wall, body, found, 24);
+    ASSERT_FALSE(HasFailure()) << i;
+    const bool is_separated = found.state == TimeOfImpactState::separated;
+    separated += is_separated ? 1 : 0;
+    hits += found.state == TimeOfImpactState::hit ? 1 : 0;
+    at_once += is_separated && found.iterations == 1 ? 1 : 0;
+  }
+  EXPECT_GT(separated, 200);
+  EXPECT_GT(at_once, separated / 2);
+  EXPECT_GT(hits, 20);
+}
+
 TEST(TimeOfImpact, StopsBulletsBeforeThinWalls) {
   Dice dice;
   for (int i = 0; i < 500; ++i) {

@@ -1,6 +1,7 @@
 #include "core/geometry/distance/motion/separating_motion.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/geometry/numeric/wide_vectors.h"
 #include "core/math/roots.h"
@@ -109,16 +110,26 @@ void for_each_bound(const ConvexCore& core, const Vec3<Unit>& normal, F&& f) {
   }
 }
 
+/// Of the body that the plane turns with: no vertex moves.
+void project_still(const MovingCore& body, const Vec3<Unit>& normal, Projection& projection) {
+  Fine greatest = std::numeric_limits<Fine>::min();
+  for_each_bound(body.core, normal, [&](const RawVec& point, Fine swell) {
+    greatest = std::max(greatest, dot(point + body.shape, normal) + swell);
+  });
+  projection.count = 1;
+  projection.lines[0] = {to_metres(greatest), 0};
+  projection.rate = projection.turning_rate = projection.acceleration = 0;
+}
+
 void project(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& normal,
              Projection& projection) {
+  if (frame.body == &body) return project_still(body, normal, projection);
   const ConvexCore& core = body.core;
-  const bool still = frame.body == &body;  // turns with the plane
-  const RawVec turning = still ? RawVec{} : raws_of(body.sweep.rotation);
-  const RawVec axis = turned(normal, turning);
+  const RawVec axis = turned(normal, raws_of(body.sweep.rotation));
   RawVec frame_axis;
   RawVec frame_centre;
-  RawVec translation = still ? RawVec{} : raws_of(body.sweep.translation);
-  if (frame.body != nullptr && !still) {
+  RawVec translation = raws_of(body.sweep.translation);
+  if (frame.body != nullptr) {
     frame_axis = turned(normal, raws_of(frame.body->sweep.rotation));
     frame_centre = frame.body->centre;
     translation = translation - raws_of(frame.body->sweep.translation);
@@ -139,7 +150,7 @@ void project(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& 
   });
   const Reach reach{root_above(from_centre), root_above(from_plane)};
   projection.turning_rate = product_above(norm_above(axis), reach.from_centre);
-  projection.acceleration = still ? 0 : acceleration_in(body, frame, normal, reach);
+  projection.acceleration = acceleration_in(body, frame, normal, reach);
 }
 
 void project(const SeparatedPair& pair, const PlaneFrame& frame, Projections& projections) {
@@ -209,6 +220,14 @@ Unit safe_step(const SeparatedPair& pair, Unit rest, Projections& scratch) {
     if (further) step = step_by_vertices(scratch, pair.reserve, step, rest);
   }
   return step;
+}
+
+// The bound is concave: where it is positive at both ends it is so between them.
+bool stays_parted(const SeparatedPair& pair, const MovingCore& body, Projections& scratch) {
+  LKS_ASSERT(&body == &pair.a || &body == &pair.b);
+  project(pair, {&body}, scratch);
+  return excess_after(scratch, pair.reserve, {}) > 0 &&
+         excess_after(scratch, pair.reserve, Unit::from_integer(1)) > 0;
 }
 
 }  // namespace lockstone::geometry

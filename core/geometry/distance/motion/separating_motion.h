@@ -5,7 +5,6 @@
 // ends through every plane that stands still, and none that turns with it.
 #pragma once
 
-
 #include <lockstone/transform.h>
 
 #include "core/base/unset_array.h"
@@ -83,6 +82,11 @@ struct Projections {
 /// by each vertex' own speed and the greatest acceleration, along the normal at rest and turning
 /// with A or B.
 [[nodiscard]] Unit safe_step(const SeparatedPair& pair, Unit rest, Projections& scratch);
+
+/// Whether the plane parts the cores by `reserve` over the whole interval while it turns with
+/// `body`, one of the two.
+[[nodiscard]] bool stays_parted(const SeparatedPair& pair, const MovingCore& body,
+                                Projections& scratch);
 
 }  // namespace geometry
 }  // namespace lockstone

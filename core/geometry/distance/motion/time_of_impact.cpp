@@ -1,12 +1,16 @@
 #include "core/geometry/distance/motion/time_of_impact.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lockstone {
 namespace geometry {
 namespace {
 
 constexpr Unit k_end = Unit::from_integer(1);
+
+/// Above the error of a distance: see `distance`.
+constexpr Fine k_search_error = Fine{1} << (k_fine_bits - 18);
 
 RawVec fine_difference(const Vec3<Position>& to, const Vec3<Position>& from) {
   const auto lane = [](Position x, Position y) {
@@ -30,6 +34,32 @@ Placement place(const SweptShape& shape, Unit fraction) {
   return {to_matrix(pose.orientation), centre, fine_difference(centre, pose.position)};
 }
 
+/// The outward normal, in world axes, of that face of a box or of a polytope of few faces which a
+/// point is farthest above; zero of other shapes. `point` is fine, from the shape's centre.
+Vec3<Unit> facing_normal(const PosedShape& shape, const RawVec& point) {
+  const RawVec local{dot(point, shape.rotation.x), dot(point, shape.rotation.y),
+                     dot(point, shape.rotation.z)};
+  Vec3<Unit> normal;
+  Fine highest = std::numeric_limits<Fine>::min();
+  if (shape.shape.kind == ShapeKind::box) {
+    for (int i = 0; i < 3; ++i) {
+      const Fine above = magnitude_of(local[i]) - fine(shape.shape.size[i]);
+      if (above <= highest) continue;
+      highest = above;
+      normal = signed_axis(shape.rotation.column(i), sign_of(local[i]));
+    }
+  } else if (shape.polytope != nullptr && shape.polytope->wide == nullptr) {
+    for (const PolytopeFace& face : shape.polytope->faces) {
+      const Fine above = dot(local, face.normal) - face.offset;
+      if (above <= highest) continue;
+      highest = above;
+      normal = face.normal;
+    }
+    normal = rotate(shape.rotation, normal);
+  }
+  return normal;
+}
+
 class Advancement {
  public:
   Advancement(const SweptShape& a, const SweptShape& b, const TimeOfImpactLimits& limits)
@@ -51,7 +81,14 @@ class Advancement {
     const Placement at_a = place(a_, result.fraction);
     const Placement at_b = place(b_, result.fraction);
     const RawVec offset = fine_difference(at_b.centre, at_a.centre);
-    GapQuery query({a_.shape, at_a.rotation, a_.polytope}, {b_.shape, at_b.rotation, b_.polytope});
+    const PosedShape posed_a{a_.shape, at_a.rotation, a_.polytope};
+    const PosedShape posed_b{b_.shape, at_b.rotation, b_.polytope};
+    GapQuery query(posed_a, posed_b);
+    const Moment at{query, at_a, at_b, offset};
+    if (result.iterations == 1 && stays_above_face(at, posed_a, posed_b)) {
+      result.fraction = k_end;
+      return false;
+    }
     const bool apart = query.find(offset);
     const Fine distance = apart ? query.gap().distance - query.radii() : 0;
     if (distance <= 0 && result.fraction.raw > 0) {
@@ -70,16 +107,40 @@ class Advancement {
       result.state = TimeOfImpactState::hit;
       return false;
     }
-    return step(query, at_a, at_b, result);
+    return step(at, result);
   }
 
-  bool step(const GapQuery& query, const Placement& at_a, const Placement& at_b,
-            TimeOfImpact& result) {
-    const RawVec offset = query.fine_pair().offset;
-    const SeparatedPair pair{{query.a(), a_.sweep, -at_a.lever, {}},
-                             {query.b(), b_.sweep, offset - at_b.lever, offset},
-                             query.gap().normal,
-                             to_metres(query.radii() + fine(limits_.target))};
+  /// A moment on the way.
+  struct Moment {
+    const GapQuery& query;
+    const Placement& a;
+    const Placement& b;
+    const RawVec& offset;  ///< from A's shape centre to B's
+  };
+
+  /// The cores as they move on, and a plane that is to keep them apart by their radii and `beyond`.
+  [[nodiscard]] SeparatedPair pair_at(const Moment& at, const Vec3<Unit>& normal,
+                                      Fine beyond) const {
+    return {{at.query.a(), a_.sweep, -at.a.lever, {}},
+            {at.query.b(), b_.sweep, at.offset - at.b.lever, at.offset},
+            normal,
+            to_metres(at.query.radii() + beyond)};
+  }
+
+  /// Whether a face of the greater body alone shows that the other never comes as near as the
+  /// limits ask, as of most bodies that are carried along: for a third of the cost of a step.
+  [[nodiscard]] bool stays_above_face(const Moment& at, const PosedShape& a, const PosedShape& b) {
+    const auto size = [](const RawVec& extent) { return extent.x + extent.y + extent.z; };
+    const bool of_a = size(at.query.a().extent) >= size(at.query.b().extent);
+    const Vec3<Unit> outward = of_a ? facing_normal(a, at.offset) : facing_normal(b, -at.offset);
+    if (outward == Vec3<Unit>{}) return false;
+    const Fine limit = fine(limits_.target) + fine(limits_.tolerance) + k_search_error;
+    const SeparatedPair pair = pair_at(at, of_a ? outward : -outward, limit);
+    return stays_parted(pair, of_a ? pair.a : pair.b, scratch_);
+  }
+
+  bool step(const Moment& at, TimeOfImpact& result) {
+    const SeparatedPair pair = pair_at(at, at.query.gap().normal, fine(limits_.target));
     const Unit rest = k_end - result.fraction;
     const Unit step = safe_step(pair, rest, scratch_);
     previous_ = result.fraction;
