@@ -53,7 +53,7 @@ ShapeFrame shape_frame(const geometry::AssetGeometry* asset, const Mat3& rotatio
   if (solid == nullptr) return {rotation, {}};
   LKS_ASSERT(solid->radius > Length{});
   const bool turned = solid->axes != Quat{};
-  const Mat3 frame = turned ? multiply(rotation, transposed(to_matrix(solid->axes))) : rotation;
+  const Mat3 frame = turned ? multiply(rotation, solid->to_axes) : rotation;
   LKS_ASSERT(max(abs(solid->centre.x), max(abs(solid->centre.y), abs(solid->centre.z))) <
              Length::from_integer(2000));
   const geometry::RawVec centre = geometry::turned(frame, solid->centre);

@@ -134,7 +134,7 @@ Solid combined(Solids solids) {
   result.scale_exponent = scale_exponent_of(result.radius);
   const PrincipalAxes principal =
       principal_axes(mean_tensor(solids, weights, centre, result.scale_exponent));
-  result.axes = principal.axes;
+  result.set_axes(principal.axes);
   result.inertia = {to_moment(principal.moments.x), to_moment(principal.moments.y),
                     to_moment(principal.moments.z)};
   return result;

@@ -243,7 +243,7 @@ std::optional<Solid> rounded_solid_of(const Polytope& polytope) {
   const PrincipalAxes principal = principal_axes(inertia_about(sum, centre, scale_bits));
   const auto& [x, y, z] = principal.moments;
   solid.inertia = {to_moment(x), to_moment(y), to_moment(z)};
-  solid.axes = principal.axes;
+  solid.set_axes(principal.axes);
   return solid;
 }
 

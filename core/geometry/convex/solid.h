@@ -24,11 +24,17 @@ struct Solid {
   Vec3<Length> centre{};  ///< of mass, in the asset's frame
   RawVec remainder{};     ///< the part of the centre that rounding took, fine
   Quat axes{};            ///< takes the principal axes to the asset's: columns are their directions
+  Mat3 to_axes{};         ///< the transposed matrix of that
   BlockFloat volume{};    ///< m³, relative error ≤ 2^-30
   Vec3<Moment> inertia{};  ///< principal moments / (mass · s²), each in (0, 1]
   int scale_exponent = 0;  ///< s = 2^k m, the first power of two ≥ radius; −10 … 10
   Length radius{};         ///< of the smallest sphere about the centre of mass that holds all
   Length inner_radius{};   ///< of the largest sphere about it that the solid holds; 0 when outside
+
+  void set_axes(const Quat& to) {
+    axes = to;
+    to_axes = transposed(to_matrix(to));
+  }
 };
 
 /// A principal moment within its range: at least one step, or a needle's about its own axis

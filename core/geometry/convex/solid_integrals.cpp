@@ -161,7 +161,7 @@ std::optional<Solid> solid_of(Vertices vertices, Triangles triangles) {
       principal_axes(inertia_of(covariance(moments, divisor, remainder, scale_bits)));
   const auto& [x, y, z] = principal.moments;
   solid.inertia = {to_moment(x), to_moment(y), to_moment(z)};
-  solid.axes = principal.axes;
+  solid.set_axes(principal.axes);
   return solid;
 }
 

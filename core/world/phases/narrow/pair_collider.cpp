@@ -108,7 +108,8 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
   }
   if (is_recycled) input.offset = rounded<Position>(recycling_offset(a, b));
   if (are_primitives(pair)) return collide_primitives(index, before, last_axis, timer);
-  const PlacedShape shape_a = placed(pair.a, is_recycled), shape_b = placed(pair.b, is_recycled);
+  const PlacedShape& shape_a = placed_first(pair.a, is_recycled);
+  const PlacedShape shape_b = placed(pair.b, is_recycled);
   if (last_axis != Vec3<Unit>{} && separated_along(shape_a, shape_b, margin, last_axis)) {
     data_.separating_axes.note(index, pair, last_axis);
     return timer.found_apart();
@@ -149,6 +150,15 @@ void PairCollider::collide_all_parts(const Pair& pair, PartContacts& parts) cons
 
 PlacedShape PairCollider::placed(std::uint32_t body, bool is_recycled) const {
   return is_recycled ? world_.cache.recycled(body, world_.bodies[body]) : world_.placed(body);
+}
+
+const PlacedShape& PairCollider::placed_first(std::uint32_t body, bool is_recycled) {
+  if (first_ != body || first_is_recycled_ != is_recycled) {
+    first_ = body;
+    first_is_recycled_ = is_recycled;
+    placed_first_ = placed(body, is_recycled);
+  }
+  return placed_first_;
 }
 
 // For primitive shapes the manifold is made where it stays. Its inputs are in the next waiting

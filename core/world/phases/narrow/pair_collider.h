@@ -27,9 +27,13 @@ class PairCollider {
   }
 
  private:
+  static constexpr std::uint32_t k_nothing = 0xffffffff;
+
   [[nodiscard]] std::uint32_t remembered_manifold(std::span<const ContactRecord> before) const;
   // Where it is, or at its recycling pose.
   [[nodiscard]] PlacedShape placed(std::uint32_t body, bool is_recycled) const;
+  // The same of the first of a pair, which the next pairs mostly have too.
+  [[nodiscard]] const PlacedShape& placed_first(std::uint32_t body, bool is_recycled);
   // `margin_of`, by the turning speeds of the tick.
   [[nodiscard]] Length margin_in_tick(const Pair& pair) const;
   void read_poses(const Pair& pair, Length margin, ManifoldInput& input) const;
@@ -60,6 +64,10 @@ class PairCollider {
   NarrowData& data_;
   WorldData& world_;
   PairScratch& scratch_;
+  // The last that `placed_first` placed.
+  std::uint32_t first_ = k_nothing;
+  bool first_is_recycled_ = false;
+  PlacedShape placed_first_;
 };
 
 }  // namespace lockstone
