@@ -1,6 +1,7 @@
 #include "core/geometry/contact/polytope/polytope_segment.h"
 
 #include <algorithm>
+#include <array>
 
 #include <lockstone/assert.h>
 
@@ -68,25 +69,43 @@ void try_end(const PolytopeSegment& segment, Fine s, Fine limit, SegmentNearest&
   if (at.found) take_nearer(best, {true, s, at.point, at.gap, at.distance});
 }
 
-void try_vertex(const Segment& core, const Vec3<Length>& vertex, Fine limit, SegmentNearest& best) {
-  const RawVec point = fine(vertex);
-  const Fine s = closest_parameter(core, point);
-  const RawVec gap = point_at(core, s) - point;
-  const auto distance = static_cast<Fine>(norm(gap.x, gap.y, gap.z));
-  if (distance <= limit) take_nearer(best, {true, s, point, gap, distance});
-}
+/// A vertex belongs to several edges, and is tried once.
+class VertexSearch {
+ public:
+  VertexSearch(const Polytope& polytope, const Segment& core, Fine limit)
+      : polytope_(polytope), core_(core), limit_(limit) {}
+
+  void try_vertex(std::uint16_t vertex, SegmentNearest& best) {
+    std::uint64_t& word = tried_[vertex / 64U];
+    const std::uint64_t bit = std::uint64_t{1} << vertex % 64U;
+    if ((word & bit) != 0) return;
+    word |= bit;
+    const RawVec point = fine(polytope_.vertices[vertex]);
+    const Fine s = closest_parameter(core_, point);
+    const RawVec gap = point_at(core_, s) - point;
+    const auto distance = static_cast<Fine>(norm(gap.x, gap.y, gap.z));
+    if (distance <= limit_) take_nearer(best, {true, s, point, gap, distance});
+  }
+
+ private:
+  const Polytope& polytope_;
+  const Segment& core_;
+  const Fine limit_;
+  std::array<std::uint64_t, k_max_polytope_vertices / 64> tried_{};
+};
 
 /// Where the edge and the core cross, the gap lies along their product, whose direction is exact
 /// however near they are; else an end of the edge is nearest.
 void try_edge(const PolytopeSegment& segment, const Segment& core, int edge, int sign, Fine limit,
-              SegmentNearest& best) {
+              VertexSearch& vertices, SegmentNearest& best) {
   LKS_ASSERT(sign == 1 || sign == -1);
   const Polytope& p = segment.polytope;
   const Segment side = edge_segment(p, edge, k_identity, {});
   const ClosestParameters closest = closest_parameters(side, core);
   if (!closest.crossing) {
-    try_vertex(core, start_of(p, edge), limit, best);
-    try_vertex(core, end_of(p, edge), limit, best);
+    const HalfEdge& half = p.edges[static_cast<std::size_t>(edge)];
+    vertices.try_vertex(half.origin, best);
+    vertices.try_vertex(p.edges[half.twin].origin, best);
     return;
   }
   const RawVec k = cross_narrow(raws_of(edge_vector(p, edge)), raws_of(segment.axis));
@@ -222,13 +241,14 @@ SegmentNearest nearest_to_segment(const PolytopeSegment& segment, const SegmentH
   const Length half = Length::from_raw(
       static_cast<std::int32_t>(raw::round_shift(segment.half, k_fine_per_length)));
   const Segment core{segment.centre, segment.axis, half};
+  VertexSearch vertices(p, core, limit);
   for (int edge = 0; edge < static_cast<int>(p.edges.size()); ++edge) {
     const FacePair faces = faces_of(p, edge);
     if (!is_first_half(p, edge)) continue;
     const int sign = crossing_sign(heights, faces);
     const Fine found = best.found ? best.distance : limit;
     if (sign != 0 && may_be_nearest(heights, faces, found))
-      try_edge(segment, core, edge, sign, limit, best);
+      try_edge(segment, core, edge, sign, limit, vertices, best);
   }
   LKS_ASSERT(!best.found || magnitude_of(best.s) <= segment.half);
   return best;
