@@ -127,6 +127,7 @@ void BoxBatch::write(std::size_t pair, Manifold& out) const {
 }
 
 void BoxBatch::finish(std::size_t pair, Manifold& out) const {
+  LKS_ASSERT(stages_[pair] != Stage::settled);
   const lanes::BoxSource& source = sources_[pair];
   const Mat3 rotation_a = rotation_of(source.axes_a), rotation_b = rotation_of(source.axes_b);
   const Shape shape_a = box_of(source.half_a), shape_b = box_of(source.half_b);

@@ -10,6 +10,7 @@
 #include "core/geometry/contact/manifold/contact_choice.h"
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/contact/manifold/nearest_manifold.h"
+#include "core/geometry/distance/manifold_checks.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -107,9 +108,10 @@ bool keep_edges(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) 
 }
 
 /// Finds the best faces of both and the reference. False where one of them parts the boxes: then
-/// `out` is what is left.
+/// `out` has no points.
 bool choose_faces(BoxMeeting& meeting, Manifold& out) {
   const BoxPair& pair = meeting.pair;
+  LKS_ASSERT(pair.margin >= Length{});
   FaceChoice& faces = meeting.faces;
   faces.a = best_face_of_a(pair);
   if (!keeps(faces.a.separation, pair.margin)) {
@@ -129,6 +131,7 @@ bool choose_faces(BoxMeeting& meeting, Manifold& out) {
 /// `out` is the manifold on the reference, which alone does not settle how the boxes meet.
 void collide_beyond(const BoxMeeting& meeting, Manifold& out) {
   const Fine separation = meeting.faces.separation();
+  LKS_ASSERT(keeps(separation, meeting.pair.margin) && is_manifold(out));
   if (separation > 0) return collide_apart(meeting, best_edge(meeting.pair, separation), out);
   const EdgeAxis edge = best_edge(meeting.pair, std::min(edge_threshold(separation), Fine{0}));
   if (!edge.found) return collide_overlapping(meeting, out);
@@ -144,6 +147,7 @@ void collide_beyond(const BoxMeeting& meeting, Manifold& out) {
 bool settle_on_reference(const BoxMeeting& meeting, Manifold& out) {
   const FaceChoice& faces = meeting.faces;
   const Fine separation = faces.separation();
+  LKS_ASSERT(keeps(separation, meeting.pair.margin));
   if (separation > 0) {
     meeting.on_reference(out);
     return attains(out, separation);
