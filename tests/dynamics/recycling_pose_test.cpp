@@ -53,19 +53,19 @@ TEST(RecyclingPose, IsNearWithinTheFinestDistance) {
   Dice dice;
   for (int round = 0; round < 2000; ++round) {
     const BodyRecord still = random_box(dice);
-    EXPECT_TRUE(is_near_recycling_pose(still));
+    EXPECT_TRUE(is_near_recycling_pose(still, coarse_range(still)));
     EXPECT_TRUE(pose_delta_of(still).is_none());
     BodyRecord body = still;
     move(dice, 0.99 * k_hair, 0.99 * k_hair, body);
-    EXPECT_TRUE(is_near_recycling_pose(body));
+    EXPECT_TRUE(is_near_recycling_pose(body, coarse_range(body)));
     BodyRecord far = still;
     move(dice, 1.01 * k_hair, 0, far);
-    EXPECT_FALSE(is_near_recycling_pose(far));
+    EXPECT_FALSE(is_near_recycling_pose(far, coarse_range(far)));
     BodyRecord turned = still;
     move(dice, 0, 1.01 * k_hair, turned);
-    EXPECT_FALSE(is_near_recycling_pose(turned));
+    EXPECT_FALSE(is_near_recycling_pose(turned, coarse_range(turned)));
     set_recycling_pose(turned);
-    EXPECT_TRUE(is_near_recycling_pose(turned));
+    EXPECT_TRUE(is_near_recycling_pose(turned, coarse_range(turned)));
   }
 }
 
@@ -89,14 +89,25 @@ TEST(RecyclingPose, LiesAlikeFromTheBodyAnywhereAndMirrored) {
 
 TEST(RecyclingPose, IsNearWithinAsMuchAsAsked) {
   Dice dice;
-  for (const RecyclingRange& range : {k_coarse_range, k_wide_range}) {
-    const double most = std::ldexp(1.0, range.metres);
+  for (const Length range : {coarse_range({}), wide_range({}), Length::from_ratio(1, 200)}) {
+    const double most = static_cast<double>(real(range));
     BodyRecord near = random_box(dice), far = near;
     move(dice, 0.99 * most, 0.99 * most, near);
     EXPECT_TRUE(is_near_recycling_pose(near, range));
     move(dice, 1.01 * most, 0, far);
     EXPECT_FALSE(is_near_recycling_pose(far, range));
   }
+}
+
+TEST(RecyclingPose, RangesOfAPileFollowTheInnerRadius) {
+  for (int exponent = -10; exponent <= 10; ++exponent) {
+    BodyRecord body;
+    body.scale_exponent = static_cast<std::int8_t>(exponent);
+    EXPECT_LT(coarse_range(body), wide_range(body)) << exponent;
+    EXPECT_EQ(pile_range(body, {}), coarse_range(body)) << exponent;
+    EXPECT_EQ(pile_range(body, metres(200)), wide_range(body)) << exponent;
+  }
+  EXPECT_EQ(pile_range({}, metres(0.08)), metres(0.005));
 }
 
 // Of a small body the hair is a part of its size: angles stay small.
@@ -110,11 +121,11 @@ TEST(RecyclingPose, IsNearWithinAPartOfASmallBody) {
     const double way = std::max(bound, 1.0 / 524288);  // two steps of lengths
     BodyRecord near = body, far = body, turned = body;
     move(dice, 0.99 * way, 0, near);
-    EXPECT_TRUE(is_near_recycling_pose(near)) << exponent;
+    EXPECT_TRUE(is_near_recycling_pose(near, coarse_range(near))) << exponent;
     move(dice, 1.01 * way, 0, far);
-    EXPECT_FALSE(is_near_recycling_pose(far)) << exponent;
+    EXPECT_FALSE(is_near_recycling_pose(far, coarse_range(far))) << exponent;
     move(dice, 0, 1.2 * bound / scale, turned);
-    EXPECT_FALSE(is_near_recycling_pose(turned)) << exponent;
+    EXPECT_FALSE(is_near_recycling_pose(turned, coarse_range(turned))) << exponent;
   }
 }
 
@@ -173,13 +184,13 @@ TEST(RecyclingPose, SeparationsFollow) {
 // Where bodies moved and turned further, separations follow to first order, and anchors stay.
 TEST(RecyclingPose, AnchorsStay) {
   Dice dice;
-  const double most = std::ldexp(1.0, k_wide_range.metres);
+  const double most = std::ldexp(1.0, -6);
   for (int round = 0; round < 2000; ++round) {
     LeaningBoxes boxes(dice);
     const Manifold found = boxes.collide();
     const Vec3<Position> before = boxes.a.position;
     move(dice, dice.uniform(most / 2, most), dice.uniform(most / 2, most), boxes.a);
-    ASSERT_TRUE(is_near_recycling_pose(boxes.a, k_wide_range));
+    ASSERT_TRUE(is_near_recycling_pose(boxes.a, wide_range(boxes.a)));
     Manifold followed = found;
     shift_manifold(pose_delta_of(boxes.a), pose_delta_of(boxes.b), followed);
     const Mat3 then = to_matrix(boxes.a.recycling_orientation),

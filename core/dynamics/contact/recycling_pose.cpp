@@ -34,6 +34,17 @@ std::int64_t steps_of(Position position) {
   return rest > k_half || (rest == k_half && below % 2 != 0) ? below + 1 : below;
 }
 
+// 2^metres m, or 2^scales of the body's scale where that is less.
+struct RangeBits {
+  int metres, scales;
+};
+
+Length least_range(const BodyRecord& body, const RangeBits& bits) {
+  const int exponent = std::min(bits.metres, body.scale_exponent + bits.scales);
+  LKS_ASSERT(Length::frac_bits + exponent >= 0);
+  return Length::from_raw(std::int32_t{1} << (Length::frac_bits + exponent));
+}
+
 // A state in which somebody flipped a bit may have its recycling pose anywhere, for a tick.
 std::int64_t within_bits(std::int64_t x, int bits) {
   const std::int64_t most = std::int64_t{1} << bits;
@@ -49,15 +60,29 @@ Vec3<Position> recycling_position(const BodyRecord& body) {
   return place;
 }
 
-bool is_near_recycling_pose(const BodyRecord& body, const RecyclingRange& range) {
-  LKS_ASSERT(range.metres <= k_wide_range.metres && range.scales <= k_wide_range.scales);
-  const int exponent = std::min(range.metres, body.scale_exponent + range.scales);
+Length coarse_range(const BodyRecord& body) {
+  return least_range(body, {-9, -9});
+}
+
+Length wide_range(const BodyRecord& body) {
+  return least_range(body, {-6, -3});
+}
+
+Length pile_range(const BodyRecord& body, Length inner_radius) {
+  LKS_ASSERT(inner_radius >= Length{});
+  return std::clamp(inner_radius / 16, coarse_range(body), wide_range(body));
+}
+
+bool is_near_recycling_pose(const BodyRecord& body, Length range) {
+  LKS_ASSERT(range > Length{} && range <= wide_range(body));
   // A place is rounded to a step of lengths.
-  const std::int64_t way = std::int64_t{1}
-                           << std::max(Position::frac_bits + exponent, k_place_shift + 1);
-  // Turning by θ moves a surface by θ · scale.
-  const std::int64_t turn = std::int64_t{1}
-                            << std::max(Unit::frac_bits - 1 + exponent - body.scale_exponent, 0);
+  constexpr std::int64_t k_two_steps = std::int64_t{1} << (k_place_shift + 1);
+  const std::int64_t way = std::max(std::int64_t{range.raw} * (1 << k_place_shift), k_two_steps);
+  // Turning by θ moves a surface by θ · scale, and a component of the orientation by θ/2.
+  constexpr int k_turn_shift = Unit::frac_bits - 1 - Length::frac_bits;
+  const std::int64_t turn =
+      std::max(raw::scale_binary(std::int64_t{range.raw}, k_turn_shift - body.scale_exponent),
+               std::int64_t{1});
   return is_within(3, way, [&](int i) { return way_of(body, i); }) &&
          is_turned_within(turn, body.orientation, body.recycling_orientation);
 }

@@ -31,22 +31,21 @@ struct PoseDelta {
 /// geometry reads it as it is.
 [[nodiscard]] Vec3<Position> recycling_position(const BodyRecord& body);
 
-/// How far a body may be from its recycling pose: 2^metres m, or 2^scales of its scale where that
-/// is less.
-struct RecyclingRange {
-  int metres, scales;
-};
-/// In islands that iterations solve.
-inline constexpr RecyclingRange k_coarse_range{-9, -9};
-/// In a pile whose bodies are all as near: 16 mm. Thin bodies that have passed each other are
-/// jammed: they tremble from one pair of features to another, which overlaps as much, and rest only
-/// where both stay as they are (docs/notes/thin-bodies.md). Box3D goes 50 mm and 14 degrees.
-inline constexpr RecyclingRange k_wide_range{-6, -3};
+/// How far a body may be from its recycling pose, m. In islands that iterations solve: 2 mm, or
+/// 2^-9 of its scale where that is less.
+[[nodiscard]] Length coarse_range(const BodyRecord& body);
+/// In a pile whose bodies are all as near: 16 mm, or an eighth of its scale. Thin bodies that have
+/// passed each other are jammed: they tremble from one pair of features to another, which overlaps
+/// as much, and rest only where both stay as they are (docs/notes/thin-bodies.md). Box3D goes 50 mm
+/// and 14 degrees.
+[[nodiscard]] Length wide_range(const BodyRecord& body);
+/// In another pile: a sixteenth of its inner radius, between the two. The slow bodies of a pile
+/// that is stirred keep their manifolds; thin ones would tip over edges that are no longer there.
+[[nodiscard]] Length pile_range(const BodyRecord& body, Length inner_radius);
 
 /// Whether centre and surface are so near to the recycling pose (the centre, within 2^-19 m at
-/// least). Of every stored body it holds with k_wide_range.
-[[nodiscard]] bool is_near_recycling_pose(const BodyRecord& body,
-                                          const RecyclingRange& range = k_coarse_range);
+/// least). Of every stored body it holds with `wide_range`.
+[[nodiscard]] bool is_near_recycling_pose(const BodyRecord& body, Length range);
 
 /// The recycling pose is the body's own from now on.
 void set_recycling_pose(BodyRecord& body);
@@ -55,7 +54,7 @@ void set_recycling_pose(BodyRecord& body);
 [[nodiscard]] PoseDelta pose_delta_of(const BodyRecord& body);
 
 /// From separations at the recycling poses to those where the bodies are: along the normal, to
-/// first order; the error is below 2^-17 m for bodies of a metre within k_coarse_range, and grows
+/// first order; the error is below 2^-17 m for bodies of a metre within `coarse_range`, and grows
 /// with the square of the way. Anchors and the normal stay, so that a wall that leans by a hair
 /// gains no lever from it: soft contacts that carry it would buckle.
 void shift_manifold(const PoseDelta& a, const PoseDelta& b, Manifold& manifold);

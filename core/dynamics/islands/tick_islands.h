@@ -87,7 +87,7 @@ struct IslandTally {
   SharedCount moved{};        ///< bodies whose poses have changed in the tick
   SharedCount travelled{};    ///< of these, bodies that did more than tremble
   SharedCount unsettled{};    ///< bodies that did not travel, and are not settled
-  SharedCount strayed{};      ///< bodies beyond k_wide_range of their recycling poses
+  SharedCount strayed{};      ///< bodies beyond `wide_range` of their recycling poses
   SharedCount overloaded{};   ///< contacts at rest under several times a body's weight; from
                               ///< k_most_overloaded + 1 on it may be any greater number
 

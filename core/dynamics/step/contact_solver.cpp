@@ -300,11 +300,14 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
   if (constraints_.has_restitution()) bounce_limit_.limit(bodies, speed_limit);
 }
 
-bool ContactSolver::keeps_recycling_pose(const IslandTally* island, const BodyRecord& record) {
+bool ContactSolver::keeps_recycling_pose(const IslandTally* island, const BodyRecord& record,
+                                         Length inner_radius) {
   if (island == nullptr || island->is_converged) return false;
+  if (!island->may_be_loose()) return is_near_recycling_pose(record, coarse_range(record));
   // A sweeper may have taken the body along since it was counted.
-  const bool is_quiet_pile = island->may_be_loose() && island->strayed.get() == 0;
-  return is_near_recycling_pose(record, is_quiet_pile ? k_wide_range : k_coarse_range);
+  const bool is_quiet = island->strayed.get() == 0;
+  return is_near_recycling_pose(record,
+                                is_quiet ? wide_range(record) : pile_range(record, inner_radius));
 }
 
 void ContactSolver::note_motion(std::uint32_t body, const BodyRecord& record,
@@ -321,7 +324,8 @@ void ContactSolver::note_motion(std::uint32_t body, const BodyRecord& record,
     tally.unsettled.raise();
   if (!motion.has_moved) return;
   tally.moved.raise();
-  if (tally.may_be_loose() && !is_near_recycling_pose(record, k_wide_range)) tally.strayed.raise();
+  if (tally.may_be_loose() && !is_near_recycling_pose(record, wide_range(record)))
+    tally.strayed.raise();
 }
 
 EnergyLimit::Bodies ContactSolver::energy_bodies() {

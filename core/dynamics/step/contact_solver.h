@@ -95,7 +95,7 @@ class ContactSolver {
   /// Whether a body's manifolds may stay as they are: its island (`island_of`) is left to the
   /// iterations, and it has not moved far.
   [[nodiscard]] static bool keeps_recycling_pose(const IslandTally* island,
-                                                 const BodyRecord& record);
+                                                 const BodyRecord& record, Length inner_radius);
 
   /// How a body moved in the tick. From any thread.
   void note_motion(std::uint32_t body, const BodyRecord& record, const BodyMotion& motion);

@@ -139,7 +139,7 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
       return {"the rotation of a body", i};
     if (is_enabled(body) && world_.broad_phase.bounds(i) != world_.bounds_of(i))
       return {"the bounds of a body", i};
-    if (!is_near_recycling_pose(body, k_wide_range)) return {"the recycling pose of a body", i};
+    if (!is_near_recycling_pose(body, wide_range(body))) return {"the recycling pose of a body", i};
     if (world_.cache.recycling_rotations()[i] != to_matrix(body.recycling_orientation))
       return {"the rotation of a recycling pose", i};
     if (world_.cache.pose_delta(i) != pose_delta_of(body)) return {"the pose delta of a body", i};

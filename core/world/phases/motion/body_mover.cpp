@@ -87,7 +87,7 @@ void BodyMover::end() {
         for (const std::uint32_t body : moved_.bodies().subspan(first, end - first)) {
           BodyRecord& record = world_.bodies[body];
           const IslandTally* island = solver_.island_of(body);
-          if (!ContactSolver::keeps_recycling_pose(island, record))
+          if (!ContactSolver::keeps_recycling_pose(island, record, world_.cache.inner_radius(body)))
             world_.cache.renew_recycling_pose(body, record);
           record.still_ticks = left_out_.still.count_of(island, record);
         }
