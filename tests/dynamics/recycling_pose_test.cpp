@@ -110,6 +110,16 @@ TEST(RecyclingPose, RangesOfAPileFollowTheInnerRadius) {
   EXPECT_EQ(pile_range({}, metres(0.08)), metres(0.005));
 }
 
+TEST(RecyclingPose, IsLookedAtInAnyRecord) {
+  for (const int exponent : {-128, -20, 20, 127}) {
+    BodyRecord body;
+    body.scale_exponent = static_cast<std::int8_t>(exponent);
+    EXPECT_TRUE(is_near_recycling_pose(body, wide_range(body))) << exponent;
+    body.position.x = Position::from_integer(1);
+    EXPECT_FALSE(is_near_recycling_pose(body, wide_range(body))) << exponent;
+  }
+}
+
 // Of a small body the hair is a part of its size: angles stay small.
 TEST(RecyclingPose, IsNearWithinAPartOfASmallBody) {
   Dice dice;

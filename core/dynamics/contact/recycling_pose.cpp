@@ -6,6 +6,7 @@
 
 #include "core/dynamics/body/pose_distance.h"
 #include "core/dynamics/body/raw_vec3.h"
+#include "core/dynamics/state/limits.h"
 
 namespace lockstone {
 namespace {
@@ -34,13 +35,18 @@ std::int64_t steps_of(Position position) {
   return rest > k_half || (rest == k_half && below % 2 != 0) ? below + 1 : below;
 }
 
+// Of a record that was loaded and not looked at yet it may be anything.
+int scale_of(const BodyRecord& body) {
+  return std::clamp<int>(body.scale_exponent, -k_largest_scale_exponent, k_largest_scale_exponent);
+}
+
 // 2^metres m, or 2^scales of the body's scale where that is less.
 struct RangeBits {
   int metres, scales;
 };
 
 Length least_range(const BodyRecord& body, const RangeBits& bits) {
-  const int exponent = std::min(bits.metres, body.scale_exponent + bits.scales);
+  const int exponent = std::min(bits.metres, scale_of(body) + bits.scales);
   LKS_ASSERT(Length::frac_bits + exponent >= 0);
   return Length::from_raw(std::int32_t{1} << (Length::frac_bits + exponent));
 }
@@ -80,9 +86,8 @@ bool is_near_recycling_pose(const BodyRecord& body, Length range) {
   const std::int64_t way = std::max(std::int64_t{range.raw} * (1 << k_place_shift), k_two_steps);
   // Turning by θ moves a surface by θ · scale, and a component of the orientation by θ/2.
   constexpr int k_turn_shift = Unit::frac_bits - 1 - Length::frac_bits;
-  const std::int64_t turn =
-      std::max(raw::scale_binary(std::int64_t{range.raw}, k_turn_shift - body.scale_exponent),
-               std::int64_t{1});
+  const std::int64_t turn = std::max(
+      raw::scale_binary(std::int64_t{range.raw}, k_turn_shift - scale_of(body)), std::int64_t{1});
   return is_within(3, way, [&](int i) { return way_of(body, i); }) &&
          is_turned_within(turn, body.orientation, body.recycling_orientation);
 }

@@ -323,7 +323,8 @@ Status SnapshotView::check(BodyStore) const {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     const BodyRecord record = body(i);
     if (validate(record, *assets_) != Status::ok) return Status::malformed;
-    if (record.exists() && !is_near_recycling_pose(record, wide_range(record))) return Status::malformed;
+    if (record.exists() && !is_near_recycling_pose(record, wide_range(record)))
+      return Status::malformed;
   }
   return Status::ok;
 }
