@@ -194,7 +194,7 @@ TEST(RecyclingPose, SeparationsFollow) {
 // Where bodies moved and turned further, separations follow to first order, and anchors stay.
 TEST(RecyclingPose, AnchorsStay) {
   Dice dice;
-  const double most = std::ldexp(1.0, -6);
+  const double most = static_cast<double>(real(wide_range({})));
   for (int round = 0; round < 2000; ++round) {
     LeaningBoxes boxes(dice);
     const Manifold found = boxes.collide();

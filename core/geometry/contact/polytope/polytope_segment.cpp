@@ -1,7 +1,7 @@
 #include "core/geometry/contact/polytope/polytope_segment.h"
 
 #include <algorithm>
-#include <array>
+#include <bitset>
 
 #include <lockstone/assert.h>
 
@@ -76,10 +76,8 @@ class VertexSearch {
       : polytope_(polytope), core_(core), limit_(limit) {}
 
   void try_vertex(std::uint16_t vertex, SegmentNearest& best) {
-    std::uint64_t& word = tried_[vertex / 64U];
-    const std::uint64_t bit = std::uint64_t{1} << vertex % 64U;
-    if ((word & bit) != 0) return;
-    word |= bit;
+    if (tried_[vertex]) return;
+    tried_.set(vertex);
     const RawVec point = fine(polytope_.vertices[vertex]);
     const Fine s = closest_parameter(core_, point);
     const RawVec gap = point_at(core_, s) - point;
@@ -91,7 +89,7 @@ class VertexSearch {
   const Polytope& polytope_;
   const Segment& core_;
   const Fine limit_;
-  std::array<std::uint64_t, k_max_polytope_vertices / 64> tried_{};
+  std::bitset<k_max_polytope_vertices> tried_;
 };
 
 /// Where the edge and the core cross, the gap lies along their product, whose direction is exact
