@@ -195,6 +195,27 @@ TEST_P(BothBroadPhases, KeepTheFirstPairsWhenTheyExceedTheCapacity) {
   EXPECT_GT(quick_searches, 0);
 }
 
+TEST_P(BothBroadPhases, TrySoonAgainAndThenMoreSeldomWhetherCandidatesFit) {
+  BroadPhase broad_phase(GetParam(), 40, 100);
+  std::vector<int> quick;  // ticks
+  for (int tick = 0; tick < 300; ++tick) {
+    // 780 candidates, and from tick 200 on 190.
+    if (tick == 200)
+      for (std::uint32_t body = 20; body < 40; ++body)
+        broad_phase.remove(body);
+    Bounds box;
+    box.upper.x = BoundsCoordinate::from_integer(1 + tick % 2);
+    for (std::uint32_t body = 0; body < (tick < 200 ? 40U : 20U); ++body)
+      broad_phase.set(body, box, k_dynamic);
+    (void)broad_phase.find_pairs();
+    if (broad_phase.effort().searched > 0 && !broad_phase.effort().searched_all)
+      quick.push_back(tick);
+  }
+  // It tries in ticks 0, 2, 5, 10, 19, 36, 69, 134, 199 and 264.
+  ASSERT_FALSE(quick.empty());
+  EXPECT_EQ(quick.front(), 264);
+}
+
 TEST_P(BothBroadPhases, KeepTheFirstOfManyPairsWhateverTheOrderOfComing) {
   BroadPhase roomy(GetParam(), 40, 1 << 12);
   BroadPhase tight(GetParam(), 40, 100);

@@ -22,8 +22,10 @@ constexpr std::size_t k_candidates_per_pair = 2;
 // Rows of candidates that are worth a worker.
 constexpr std::uint32_t k_row_grain = 64;
 
-// How long nothing but full searches are made once the candidates did not fit.
-constexpr std::uint32_t k_pause_ticks = 64;
+// How long nothing but full searches are made once the candidates did not fit: a tick at first,
+// since a world that was just loaded has fat boxes that few bodies keep, then twice as long each
+// time, up to this.
+constexpr std::uint32_t k_longest_pause = 64;
 
 BoundsCoordinate plus(BoundsCoordinate x, std::int64_t distance) {
   return BoundsCoordinate::from_raw(raw::saturate<std::int32_t>(std::int64_t{x.raw} + distance));
@@ -99,7 +101,7 @@ void BroadPhase::clear() {
   release_touched();
   body_limit_ = 0;
   has_candidates_ = false;
-  ticks_without_candidates_ = 0;
+  ticks_without_candidates_ = next_pause_ = 0;
   changed_ = true;
 }
 
@@ -226,7 +228,8 @@ bool BroadPhase::update_candidates() {
   if (touched_.empty()) return true;
   has_candidates_ = search([&](const Pair& pair) { return candidates_.add(pair); }) &&
                     candidates_.merge(std::span(is_touched_).first(body_limit_));
-  if (!has_candidates_) ticks_without_candidates_ = k_pause_ticks;
+  next_pause_ = has_candidates_ ? 0 : std::clamp(2 * next_pause_, 1U, k_longest_pause);
+  ticks_without_candidates_ = next_pause_;
   return has_candidates_;
 }
 

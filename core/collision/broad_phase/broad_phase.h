@@ -125,6 +125,7 @@ class BroadPhase {
 
   CandidatePairs candidates_;
   std::uint32_t ticks_without_candidates_ = 0;  // to come
+  std::uint32_t next_pause_ = 0;                // ticks; 0: the candidates fit last
   bool has_candidates_ = false;
   std::vector<std::uint32_t> refined_;  // by row of candidates: pairs; then where they begin
   PairList pairs_;
