@@ -160,8 +160,11 @@ struct CompoundGeometry final : geometry::AssetGeometry {
     LocalBounds bounds;
   };
 
+  static constexpr std::size_t k_group = 8;  // children whose bounds are tested at once
+
   std::vector<CompoundChild> children;
-  std::vector<Placed> placed;  // by child
+  std::vector<Placed> placed;       // by child
+  std::vector<LocalBounds> groups;  // of eight children each, in order
   LocalBounds all_bounds;
   geometry::Solid whole;
   bool has_meshes = false;
@@ -175,9 +178,13 @@ struct CompoundGeometry final : geometry::AssetGeometry {
   }
   [[nodiscard]] const geometry::AssetGeometry* solids() const override { return this; }
   void visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const override {
-    for (std::size_t i = 0; i < children.size(); ++i)
-      if (!is_mesh(children[i]) && geometry::overlap(region, placed[i].bounds))
-        visitor.visit(part(i));
+    for (std::size_t group = 0; group < groups.size(); ++group) {
+      if (!geometry::overlap(region, groups[group])) continue;
+      const std::size_t end = std::min(children.size(), (group + 1) * k_group);
+      for (std::size_t i = group * k_group; i < end; ++i)
+        if (!is_mesh(children[i]) && geometry::overlap(region, placed[i].bounds))
+          visitor.visit(part(i));
+    }
   }
   void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
                           const Vec3<Length>& reach,
@@ -195,9 +202,13 @@ void CompoundGeometry::derive() {
   std::vector<geometry::PlacedSolid> solids;
   for (const CompoundChild& child : children) {
     const Mat3 rotation = to_matrix(child.orientation);
-    placed.push_back({rotation, bounds_of(child, rotation)});
-    all_bounds =
-        placed.size() == 1 ? placed.front().bounds : united(all_bounds, placed.back().bounds);
+    const LocalBounds bounds = bounds_of(child, rotation);
+    placed.push_back({rotation, bounds});
+    all_bounds = placed.size() == 1 ? bounds : united(all_bounds, bounds);
+    if (placed.size() % k_group == 1)
+      groups.push_back(bounds);
+    else
+      groups.back() = united(groups.back(), bounds);
     has_meshes = has_meshes || is_mesh(child);
     if (has_meshes) continue;
     geometry::PlacedSolid part{
