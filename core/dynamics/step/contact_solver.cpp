@@ -228,8 +228,9 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return joints_.balls().solve_positions(joints_.balls_run(), stage.color, first, end);
     case StageKind::solve_joints:
       return joints.solve(joints_.run(), first, end);
-    case StageKind::positions:
-      return for_staged(bodies_.constants(), first, end,
+    case StageKind::positions:  // bodies without contacts have joints, which move them
+      return for_staged(bodies_.constants(), first,
+                        std::min<std::size_t>(end, joints_.first_without_contacts()),
                         [this](std::uint32_t number) { bodies_.integrate_position(number); });
     case StageKind::move_joined:
       return joints.move(joints_.run(), first, end);

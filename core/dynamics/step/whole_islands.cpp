@@ -171,13 +171,13 @@ void WholeIslands::push(const Island& island, bool is_first) {
   if (is_watched) parts_.energy_limit.limit_moves(energy_bodies(), island.watched);
 }
 
-// Positions move, then the rest of the substep.
+// Positions move, then the rest of the substep. Only contacts ask how far a body travelled.
 void WholeIslands::relax(const Island& island) {
   const JointRun joints = parts_.joints.run();
   WholeClusters& clusters = parts_.joints.solver().whole_clusters();
   const std::span own = std::span(clusters_).subspan(island.first_cluster, island.clusters);
   for (const std::uint32_t number : std::span(bodies_).subspan(island.first_body, island.bodies))
-    parts_.bodies.integrate_position(number);
+    if (number < parts_.joints.first_without_contacts()) parts_.bodies.integrate_position(number);
   LKS_ASSERT(island.first_body + island.bodies <= bodies_.size());
   for (const std::uint32_t cluster : own)
     clusters.move(joints, cluster);

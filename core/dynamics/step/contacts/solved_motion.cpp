@@ -83,13 +83,8 @@ std::uint32_t SolvedMotion::scatter(std::uint32_t number, const Mat3& rotation,
                                     const JointPose* pose, BodyRecord& body) const {
   LKS_ASSERT(number != 0 && number < bodies_.count());
   const BodyVelocity& row = bodies_.rows()[number];
-  const DeltaPose& travel = bodies_.travel()[number];
-  const Vec3<Velocity> back = body.is_dynamic() ? half_step_back(number, body) : Vec3<Velocity>{};
-  const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
-  // A component that did not move has nothing to take back.
-  const auto gone = [&](std::int64_t sum, Velocity too_far) {
-    return sum == 0 ? Velocity{} : moved(sum) - too_far;
-  };
+  const Vec3<Velocity> back =
+      pose == nullptr && body.is_dynamic() ? half_step_back(number, body) : Vec3<Velocity>{};
   if (body.is_dynamic()) {
     body.velocity = velocity_of_row(row.velocity);
     body.spin = velocity_of_row(row.spin);
@@ -99,6 +94,12 @@ std::uint32_t SolvedMotion::scatter(std::uint32_t number, const Mat3& rotation,
     body.orientation = pose->orientation;
     return 0;
   }
+  const DeltaPose& travel = bodies_.travel()[number];
+  const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
+  // A component that did not move has nothing to take back.
+  const auto gone = [&](std::int64_t sum, Velocity too_far) {
+    return sum == 0 ? Velocity{} : moved(sum) - too_far;
+  };
   return end_substeps(
       body, rotation,
       {gone(travel.velocity[0], back.x), gone(travel.velocity[1], back.y),
