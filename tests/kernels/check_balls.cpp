@@ -66,6 +66,12 @@ struct SceneMaker {
           static_cast<std::int32_t>(operand_in(i < 3 ? k_one / 2 : -k_one / 4, i < 3 ? k_one : 1));
   }
 
+  // About all axes, as the bodies of a plain joint turn.
+  void make_alike(BodyInertia& body) {
+    const auto moment = static_cast<std::int32_t>(random.between(0, k_one));
+    body.inertia = {moment, moment, moment, 0, 0, 0};
+  }
+
   void fill(BallBlock& block, std::size_t lane) {
     for (BlockWord& word : block.anchor)
       word[lane] = both(-(1 << 20), 1 << 20);
@@ -101,6 +107,12 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
     maker.fill(block, lane);
     block.body_a[lane] = body_velocity_offset(next);
     block.body_b[lane] = body_velocity_offset(next + 1);
+    if (i / k_block_lanes % 2 == 0 && random.between(0, 7) != 0) {
+      maker.make_alike(scene.inertias[next]);
+      maker.make_alike(scene.inertias[next + 1]);
+    } else {
+      block.scale[lane] |= k_special_balls;
+    }
   }
   return scene;
 }

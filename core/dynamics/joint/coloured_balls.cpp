@@ -29,6 +29,14 @@ std::int32_t impulse_of(const JointRecord& record, std::size_t axis) {
   return std::clamp(record.axes[axis].impulse.raw, -lanes::k_most_impulse, lanes::k_most_impulse);
 }
 
+// Whether it does about all axes, and will until the tick ends; a body that stands still does not
+// turn.
+bool turns_alike(const ColouredBalls::End& end, const ColouredBallsRun& run) {
+  const auto& [xx, yy, zz, xy, xz, yz] = run.inertias[end.row].inertia;
+  return !end.pushed ||
+         (end.record->has_spherical_inertia() && xx == yy && yy == zz && (xy | xz | yz) == 0);
+}
+
 void empty_lane(std::size_t lane, BallBlock& block) {
   LKS_ASSERT(lane < lanes::k_block_lanes);
   block.body_a[lane] = block.body_b[lane] = 0;
@@ -129,6 +137,8 @@ void ColouredBalls::fill_lane(const ColouredBallsRun& run, const Entry& entry, s
     block.anchor[axis][lane] = pack(joint.anchor_a[axis].raw, joint.anchor_b[axis].raw);
   }
   block.scale[lane] = pack(scale_of(entry.a), scale_of(entry.b));
+  if (!turns_alike(entry.a, run) || !turns_alike(entry.b, run))
+    block.scale[lane] |= lanes::k_special_balls;
   block.factor[lane] = pack(std::int64_t{1} << (k_factor_exponent - pair + of_a),
                             std::int64_t{1} << (k_factor_exponent - pair + of_b));
   block.share[lane] =

@@ -36,6 +36,10 @@ inline constexpr int k_most_anchor_m = 1024;
 /// Openings are closed no faster than this, m/s, Q20.
 inline constexpr std::int64_t k_most_closing = std::int64_t{4} << 20;
 
+/// A flag above the exponent of B's scale, set in a lane that is not plain. A joint is plain if its
+/// bodies turn alike about all axes, M = m·1 with 0 ≤ m ≤ 1 and m the same for the whole tick.
+inline constexpr std::int64_t k_special_balls = INT64_MIN;
+
 /// Eight ball joints that share no body, save one that nothing moves (share and inertia zero). A
 /// lane without a joint is zero but for `share`.
 struct alignas(64) BallBlock {
@@ -45,7 +49,7 @@ struct alignas(64) BallBlock {
   // Fixed for a tick.
   BlockWord
       anchor[3]{};     // low: of A, high: of B, in body axes; m, Q20, ≤ s of a body that can turn
-  BlockWord scale{};   // low: 20 + exponent of A's scale, high: of B's; 1 … 32
+  BlockWord scale{};   // low: 20 + exponent of A's scale, high: of B's, 1 … 32, | k_special_balls
   BlockWord factor{};  // 2^(12 − pair's exponent + body's), 1 … 2^12; low: of A, high: of B
   BlockWord share{};   // low: αB, Q30, high: shift, 16 … 28
 

@@ -7,6 +7,7 @@
 #endif
 
 #include "core/kernels/ball/ball_block.h"
+#include "core/kernels/contact/manifold_divide_inl.h"
 #include "core/kernels/contact/manifold_prepare_inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -51,27 +52,51 @@ HWY_INLINE HWY_ATTR Lanes closing(Lanes apart, Lanes arms, Lanes rate) {
   return round_shift_low<8>(clamp(speed, broadcast(-k_fast), broadcast(k_fast)));
 }
 
+/// Whether the bodies of all lanes at hand turn alike about all axes.
+HWY_INLINE HWY_ATTR bool are_plain(const BallBlock& block, std::size_t lane) {
+  if constexpr (!k_tells_plain) return false;
+  return !any_less(load(&block.scale[lane]), broadcast(0));
+}
+
 /// Adds α·r̄×·M·r̄×ᵀ, whose entry of axes e and f is (r̄ × e)·M·(r̄ × f), in Q(shift + 30).
+template <bool plain>
 HWY_INLINE HWY_ATTR void add_body(const Tensor& m, const Vector& r, Lanes share, Tensor& k) {
-  const auto [x, y, z] = turned_by_axes(m, r);
-  const Vector diagonal =
-      round_shift_low<30>(Vector{difference(x.y, r.z, x.z, r.y), difference(y.z, r.x, y.x, r.z),
-                                 difference(z.x, r.y, z.y, r.x)});
-  const Vector mixed =
-      round_shift_low<30>(Vector{difference(y.y, r.z, y.z, r.y), difference(z.y, r.z, z.z, r.y),
-                                 difference(z.z, r.x, z.x, r.z)});
+  Vector diagonal{}, mixed{};
+  if constexpr (plain) {  // M = m·1, and products that are negated round alike
+    const Vector p = round_shift_low<30>(multiply(r, m.xx));
+    const Lanes x = multiply(p.x, r.x), y = multiply(p.y, r.y), z = multiply(p.z, r.z);
+    diagonal = round_shift_low<30>(Vector{add(y, z), add(x, z), add(x, y)});
+    mixed = round_shift_low<30>(Vector{multiply(p.x, r.y), multiply(p.x, r.z), multiply(p.y, r.z)});
+    k.xy = multiply_subtract(k.xy, mixed.x, share);
+    k.xz = multiply_subtract(k.xz, mixed.y, share);
+    k.yz = multiply_subtract(k.yz, mixed.z, share);
+  } else {
+    const auto [x, y, z] = turned_by_axes(m, r);
+    diagonal =
+        round_shift_low<30>(Vector{difference(x.y, r.z, x.z, r.y), difference(y.z, r.x, y.x, r.z),
+                                   difference(z.x, r.y, z.y, r.x)});
+    mixed =
+        round_shift_low<30>(Vector{difference(y.y, r.z, y.z, r.y), difference(z.y, r.z, z.z, r.y),
+                                   difference(z.z, r.x, z.x, r.z)});
+    k.xy = multiply_add(k.xy, mixed.x, share);
+    k.xz = multiply_add(k.xz, mixed.y, share);
+    k.yz = multiply_add(k.yz, mixed.z, share);
+  }
   k.xx = multiply_add(k.xx, diagonal.x, share);
   k.yy = multiply_add(k.yy, diagonal.y, share);
   k.zz = multiply_add(k.zz, diagonal.z, share);
-  k.xy = multiply_add(k.xy, mixed.x, share);
-  k.xz = multiply_add(k.xz, mixed.y, share);
-  k.yz = multiply_add(k.yz, mixed.z, share);
 }
 
-/// 1/d in Q30, lane by lane, for a pivot in Q(shift) that is at least 1.
+/// 1/d in Q30 for a pivot in Q(shift) that is at least 1: side by side where there are lanes enough
+/// and pivots as they should be, else lane by lane.
 HWY_INLINE HWY_ATTR Lanes inverse_of_pivot(Lanes pivot, Lanes shift) {
+  const Lanes one = power_of_two(shift), divisor = max(lower_part(pivot), one);
+  if constexpr (k_lanes >= 4) {
+    if (!any_less(broadcast(INT32_MAX), divisor))
+      return quotient_of(divisor, shift, shift_left<30>(one));
+  }
   std::int64_t words[k_lanes], shifts[k_lanes];
-  store(max(lower_part(pivot), power_of_two(shift)), words);
+  store(divisor, words);
   store(shift, shifts);
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
     const int exponent = static_cast<int>(shifts[lane]) + 30;
@@ -127,21 +152,23 @@ HWY_INLINE HWY_ATTR void find_arms(BallBlock& block, std::size_t lane, const Bod
   store(pack(closing(apart.x, arms.x, rate), closing(apart.y, arms.y, rate)), &block.bias[0][lane]);
   store(lower_part(closing(apart.z, arms.z, rate)), &block.bias[1][lane]);
   out.arm_a = normalised(arm_a, lower_part(scale));
-  out.arm_b = normalised(arm_b, upper_part(scale));
+  out.arm_b = normalised(arm_b, low_byte(upper_part(scale)));
   out.gain_a = round_shift_low<30>(multiply(out.arm_a, share_a));
   out.gain_b = round_shift_low<30>(multiply(out.arm_b, share_b));
 }
 
-HWY_INLINE HWY_ATTR void store_setup(const Setup& in, const Tensor& mass, std::size_t lane,
-                                     BallBlock& block) {
-  const Tensor& a = in.inertia_a;
-  const Tensor& b = in.inertia_b;
+HWY_INLINE HWY_ATTR void store_inertias(const Tensor& a, const Tensor& b, std::size_t lane,
+                                        BallBlock& block) {
   store(pack(a.xx, b.xx), &block.inertia[0][lane]);
   store(pack(a.yy, b.yy), &block.inertia[1][lane]);
   store(pack(a.zz, b.zz), &block.inertia[2][lane]);
   store(pack(a.xy, b.xy), &block.inertia[3][lane]);
   store(pack(a.xz, b.xz), &block.inertia[4][lane]);
   store(pack(a.yz, b.yz), &block.inertia[5][lane]);
+}
+
+HWY_INLINE HWY_ATTR void store_setup(const Setup& in, const Tensor& mass, std::size_t lane,
+                                     BallBlock& block) {
   store_vector(pack(in.arm_a, in.arm_b), block.arm, lane);
   store_vector(pack(in.gain_a, in.gain_b), block.gain_arm, lane);
   store(pack(mass.xx, mass.yy), &block.mass[0][lane]);
@@ -149,20 +176,37 @@ HWY_INLINE HWY_ATTR void store_setup(const Setup& in, const Tensor& mass, std::s
   store(pack(mass.xz, mass.yz), &block.mass[2][lane]);
 }
 
-/// Everything that depends on where the bodies are.
+/// M of both bodies in the pair's format. That of plain lanes stays as it is in a tick.
+template <bool plain, bool again>
+HWY_INLINE HWY_ATTR void place_inertias(BallBlock& block, std::size_t lane,
+                                        const BodyInertia* inertias, Setup& setup) {
+  if constexpr (plain && again) {
+    const Lanes moments = load(&block.inertia[0][lane]), none = broadcast(0);
+    setup.inertia_a = {moments, moments, moments, none, none, none};
+    const Lanes of_b = upper(moments);
+    setup.inertia_b = {of_b, of_b, of_b, none, none, none};
+    return;
+  }
+  const Lanes factor = load(&block.factor[lane]);
+  setup.inertia_a = load_tensor<plain>(inertias, &block.body_a[lane], factor);
+  setup.inertia_b = load_tensor<plain>(inertias, &block.body_b[lane], upper(factor));
+  store_inertias(setup.inertia_a, setup.inertia_b, lane, block);
+}
+
+/// Everything that depends on where the bodies are; `again` after they have moved.
+template <bool plain, bool again>
 HWY_INLINE HWY_ATTR void place_lanes(BallBlock& block, std::size_t lane, const BodyPlace* places,
                                      const BodyInertia* inertias, std::int32_t substep_rate,
                                      Setup& setup) {
-  const Lanes share = load(&block.share[lane]), factor = load(&block.factor[lane]);
+  const Lanes share = load(&block.share[lane]);
   const Lanes share_b = share, share_a = subtract(broadcast(k_one), share);
   const EachShift by = each_shift(upper_part(share));
   find_arms(block, lane, places, share_a, share_b, substep_rate, setup);
-  setup.inertia_a = load_tensor(inertias, &block.body_a[lane], factor);
-  setup.inertia_b = load_tensor(inertias, &block.body_b[lane], upper(factor));
+  place_inertias<plain, again>(block, lane, inertias, setup);
   const Lanes none = broadcast(0), one = power_of_two(by.shift);
   Tensor k{none, none, none, none, none, none};
-  add_body(setup.inertia_a, setup.arm_a, share_a, k);
-  add_body(setup.inertia_b, setup.arm_b, share_b, k);
+  add_body<plain>(setup.inertia_a, setup.arm_a, share_a, k);
+  add_body<plain>(setup.inertia_b, setup.arm_b, share_b, k);
   k = {add(round_shift_low<30>(k.xx), one), add(round_shift_low<30>(k.yy), one),
        add(round_shift_low<30>(k.zz), one), round_shift_low<30>(k.xy),
        round_shift_low<30>(k.xz),           round_shift_low<30>(k.yz)};
@@ -192,33 +236,57 @@ struct BallPair : BodyPair {
   }
 };
 
+template <bool plain>
+HWY_INLINE HWY_ATTR void begin_ball_lanes(BallBlock& block, std::size_t lane,
+                                          const BodyPlace* places, const BodyInertia* inertias,
+                                          std::int64_t* warm, std::int32_t substep_rate) {
+  Setup setup{};
+  place_lanes<plain, false>(block, lane, places, inertias, substep_rate, setup);
+  const Lanes none = broadcast(0);
+  BallPair bodies{};
+  bodies.load_from(warm, block, lane);
+  bodies.push(load_impulse(block.impulse, lane), load(&block.share[lane]), setup.gain_a,
+              setup.gain_b);
+  bodies.store_to(warm, block, lane);
+  store_impulse({none, none, none}, block.position_impulse, lane);
+}
+
 HWY_ATTR inline void begin_balls(BallBlock* blocks, std::size_t count, const BodyPlace* places,
                                  const BodyInertia* inertias, BodyVelocity* warm,
                                  std::int32_t substep_rate) {
   std::int64_t* words = warm->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
-    BallBlock& block = blocks[i];
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      Setup setup{};
-      place_lanes(block, lane, places, inertias, substep_rate, setup);
-      const Lanes none = broadcast(0);
-      BallPair bodies{};
-      bodies.load_from(words, block, lane);
-      bodies.push(load_impulse(block.impulse, lane), load(&block.share[lane]), setup.gain_a,
-                  setup.gain_b);
-      bodies.store_to(words, block, lane);
-      store_impulse({none, none, none}, block.position_impulse, lane);
+      if (are_plain(blocks[i], lane)) {
+        begin_ball_lanes<true>(blocks[i], lane, places, inertias, words, substep_rate);
+      } else {
+        begin_ball_lanes<false>(blocks[i], lane, places, inertias, words, substep_rate);
+      }
     }
   }
 }
 
+/// M·spin of both bodies, before rounding.
+template <bool plain>
+HWY_INLINE HWY_ATTR void turn_both(const BallBlock& block, std::size_t lane, Vector& a, Vector& b) {
+  if constexpr (plain) {
+    a = multiply(a, load(&block.inertia[0][lane]));
+    b = multiply(b, load_upper(&block.inertia[0][lane]));
+  } else {
+    const TensorPair inertia = load_tensors(block.inertia[0], block.inertia + 1, lane);
+    a = inertia.a.times(a);
+    b = inertia.b.times(b);
+  }
+}
+
 /// u in Q20.
+template <bool plain>
 HWY_INLINE HWY_ATTR Vector speed_of(const BallBlock& block, std::size_t lane, const EachShift& by,
                                     const BallPair& bodies) {
-  const TensorPair inertia = load_tensors(block.inertia[0], block.inertia + 1, lane);
+  Vector a = spin_of(bodies.a), b = spin_of(bodies.b);
+  turn_both<plain>(block, lane, a, b);
   const Vector arm = load_vector(block.arm, lane);
-  const Vector around = subtract(cross(by.round(inertia.b.times(spin_of(bodies.b))), upper(arm)),
-                                 cross(by.round(inertia.a.times(spin_of(bodies.a))), arm));
+  const Vector around = subtract(cross(by.round(b), upper(arm)), cross(by.round(a), arm));
   return round_shift_low<30>(add(bodies.apart(), around));
 }
 
@@ -236,10 +304,12 @@ HWY_INLINE HWY_ATTR Vector next_impulse(const BallBlock& block, std::size_t lane
 }
 
 /// One step of either iteration: `total` are the impulses that it adds to.
+template <bool plain>
 HWY_INLINE HWY_ATTR void solve_lanes(const BallBlock& block, std::size_t lane, const Vector& bias,
                                      BallPair& bodies, BlockWord (&total)[2]) {
   const Lanes share = load(&block.share[lane]);
-  const Vector u = add(speed_of(block, lane, each_shift(upper_part(share)), bodies), bias);
+  const EachShift by = each_shift(upper_part(share));
+  const Vector u = add(speed_of<plain>(block, lane, by, bodies), bias);
   const Vector old = load_impulse(total, lane);
   const Vector next = next_impulse(block, lane, old, u);
   const Vector gain = load_vector(block.gain_arm, lane);
@@ -247,21 +317,27 @@ HWY_INLINE HWY_ATTR void solve_lanes(const BallBlock& block, std::size_t lane, c
   store_impulse(next, total, lane);
 }
 
+template <bool plain>
 HWY_INLINE HWY_ATTR void relax_ball_lanes(BallBlock& block, std::size_t lane, BallPair& bodies) {
   const Lanes none = broadcast(0);
-  solve_lanes(block, lane, {none, none, none}, bodies, block.impulse);
+  solve_lanes<plain>(block, lane, {none, none, none}, bodies, block.impulse);
 }
 
 HWY_ATTR inline void solve_ball_positions(BodyVelocity* bodies, BallBlock* blocks,
                                           std::size_t count) {
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
+    BallBlock& block = blocks[i];
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+      const Vector bias = load_impulse(block.bias, lane);
       BallPair pair{};
-      pair.load_from(words, blocks[i], lane);
-      solve_lanes(blocks[i], lane, load_impulse(blocks[i].bias, lane), pair,
-                  blocks[i].position_impulse);
-      pair.store_to(words, blocks[i], lane);
+      pair.load_from(words, block, lane);
+      if (are_plain(block, lane)) {
+        solve_lanes<true>(block, lane, bias, pair, block.position_impulse);
+      } else {
+        solve_lanes<false>(block, lane, bias, pair, block.position_impulse);
+      }
+      pair.store_to(words, block, lane);
     }
   }
 }
@@ -272,7 +348,11 @@ HWY_ATTR inline void relax_balls(BodyVelocity* bodies, BallBlock* blocks, std::s
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
       BallPair pair{};
       pair.load_from(words, blocks[i], lane);
-      relax_ball_lanes(blocks[i], lane, pair);
+      if (are_plain(blocks[i], lane)) {
+        relax_ball_lanes<true>(blocks[i], lane, pair);
+      } else {
+        relax_ball_lanes<false>(blocks[i], lane, pair);
+      }
       pair.store_to(words, blocks[i], lane);
     }
   }
@@ -293,26 +373,38 @@ HWY_INLINE HWY_ATTR void renew_impulses(BallBlock& block, std::size_t lane, cons
   store_impulse(kept, block.impulse, lane);
 }
 
+template <bool plain>
+HWY_INLINE HWY_ATTR void update_ball_lanes(BallBlock& block, std::size_t lane,
+                                           const BodyPlace* places, const BodyInertia* inertias,
+                                           std::int64_t* words, std::int64_t* before,
+                                           std::int32_t substep_rate) {
+  const Lanes none = broadcast(0);
+  const Vector old = load_vector(block.gain_arm, lane);
+  Setup setup{};
+  place_lanes<plain, true>(block, lane, places, inertias, substep_rate, setup);
+  renew_impulses(block, lane, old, setup, before);
+  BallPair pair{};
+  pair.load_from(words, block, lane);
+  const Vector position_impulse = load_impulse(block.position_impulse, lane);
+  pair.push(subtract(Vector{none, none, none}, position_impulse), load(&block.share[lane]), old,
+            upper(old));
+  store_impulse({none, none, none}, block.position_impulse, lane);
+  relax_ball_lanes<plain>(block, lane, pair);
+  pair.store_to(words, block, lane);
+}
+
 HWY_ATTR inline void update_balls(BodyVelocity* bodies, BodyVelocity* before, BallBlock* blocks,
                                   std::size_t count, const BodyPlace* places,
                                   const BodyInertia* inertias, std::int32_t substep_rate) {
-  const Lanes none = broadcast(0);
   std::int64_t* words = bodies->velocity.data();
+  std::int64_t* start = before->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
-    BallBlock& block = blocks[i];
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      const Vector old = load_vector(block.gain_arm, lane);
-      Setup setup{};
-      place_lanes(block, lane, places, inertias, substep_rate, setup);
-      renew_impulses(block, lane, old, setup, before->velocity.data());
-      BallPair pair{};
-      pair.load_from(words, block, lane);
-      const Vector position_impulse = load_impulse(block.position_impulse, lane);
-      pair.push(subtract(Vector{none, none, none}, position_impulse), load(&block.share[lane]), old,
-                upper(old));
-      store_impulse({none, none, none}, block.position_impulse, lane);
-      relax_ball_lanes(block, lane, pair);
-      pair.store_to(words, block, lane);
+      if (are_plain(blocks[i], lane)) {
+        update_ball_lanes<true>(blocks[i], lane, places, inertias, words, start, substep_rate);
+      } else {
+        update_ball_lanes<false>(blocks[i], lane, places, inertias, words, start, substep_rate);
+      }
     }
   }
 }
