@@ -71,6 +71,7 @@ class JointScene {
       added.record = &joint;
       added.a = gather(joint.body_a);
       added.b = gather(joint.body_b);
+      planner.read(added);
     }
     in_balls = planner.plan(first_without_contacts);
     solver_bodies.resize(records.size() + 1);

@@ -293,6 +293,7 @@ SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
   solver.inverse_inertia = inverse_inertia(body, rotation);
   solver.inverse_mass = body.inverse_mass_value();
   solver.scale_exponent = body.scale_exponent;
+  solver.is_spherical = body.has_spherical_inertia();
   solver.is_plain = solver.locked == 0 && turns_alike(solver.inverse_inertia);
   LKS_ASSERT(solver.inverse_mass.mantissa >= 0 && (body.is_dynamic() || !solver.is_pushed()));
   return solver;

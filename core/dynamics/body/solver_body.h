@@ -16,12 +16,13 @@ struct alignas(64) SolverBody {
   InverseInertia inverse_inertia{};
   BlockFloat inverse_mass{};
   std::int32_t scale_exponent = 0;
-  std::uint8_t locked = 0;  // bit i: axis i of moving is locked
-  bool is_plain = true;     // nothing is locked, and it turns alike about all axes
-  bool is_alone = false;    // touches one body that no impulse moves, and nothing else
-  bool rests = false;       // of a pile, and hardly moves when the tick begins
-  bool is_heavier = false;  // its joints take it to be heavier to turn than it is
-  bool is_whole = false;    // `WholeIslands` moves it
+  std::uint8_t locked = 0;    // bit i: axis i of moving is locked
+  bool is_plain = true;       // nothing is locked, and it turns alike about all axes
+  bool is_alone = false;      // touches one body that no impulse moves, and nothing else
+  bool rests = false;         // of a pile, and hardly moves when the tick begins
+  bool is_heavier = false;    // its joints take it to be heavier to turn than it is
+  bool is_whole = false;      // `WholeIslands` moves it
+  bool is_spherical = false;  // its principal moments are equal
   alignas(64) std::array<std::int64_t, 3> gain{};  // of velocity in a substep, by gravity and
                                                    // forces; Q32
   std::array<std::int64_t, 3> spin_gain{};         // of spin, by torques

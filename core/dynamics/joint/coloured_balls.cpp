@@ -29,12 +29,19 @@ std::int32_t impulse_of(const JointRecord& record, std::size_t axis) {
   return std::clamp(record.axes[axis].impulse.raw, -lanes::k_most_impulse, lanes::k_most_impulse);
 }
 
-// Whether it does about all axes, and will until the tick ends; a body that stands still does not
-// turn.
-bool turns_alike(const ColouredBalls::End& end, const ColouredBallsRun& run) {
-  const auto& [xx, yy, zz, xy, xz, yz] = run.inertias[end.row].inertia;
-  return !end.pushed ||
-         (end.record->has_spherical_inertia() && xx == yy && yy == zz && (xy | xz | yz) == 0);
+// Whether other impulses are kept than those along the first three axes.
+bool has_other_impulses(const JointRecord& joint) {
+  std::int32_t any = 0;
+  for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {
+    any |= joint.axes[axis].drive_impulse.raw;
+    if (axis >= 3) any |= joint.axes[axis].impulse.raw;
+  }
+  return any != 0;
+}
+
+// Whether it turns alike about all axes, and will until the tick ends.
+bool stays_alike(const SolverBody& body) {
+  return body.is_spherical && turns_alike(body.inverse_inertia);
 }
 
 void empty_lane(std::size_t lane, BallBlock& block) {
@@ -74,7 +81,15 @@ void ColouredBalls::clear(std::uint32_t rows) {
 void ColouredBalls::add(std::uint32_t link, const JointRecord& record, const End& a, const End& b) {
   LKS_ASSERT(a.pushed || b.pushed);
   graph_.add(a.row, a.pushed, b.row, b.pushed);
-  entries_.push_back({&record, link, a, b});
+  entries_.push_back({link,
+                      a.row,
+                      b.row,
+                      a.pushed,
+                      b.pushed,
+                      has_other_impulses(record),
+                      record.anchor_a,
+                      record.anchor_b,
+                      {impulse_of(record, 0), impulse_of(record, 1), impulse_of(record, 2)}});
 }
 
 void ColouredBalls::lay_out() {
@@ -99,8 +114,8 @@ const BallKernels& ColouredBalls::kernels_of(std::size_t color) const {
   return color == k_overflow_color ? lanes::k_scalar_balls : *kernels_;
 }
 
-void ColouredBalls::fill(const ColouredBallsRun& run, std::size_t color, std::size_t first,
-                         std::size_t end) {
+void ColouredBalls::fill(const ColouredBallsRun& run, const JointedWorld& world, std::size_t color,
+                         std::size_t first, std::size_t end) {
   const BallKernels& kernels = kernels_of(color);
   LKS_ASSERT(first <= end && end <= ranges_[color].count);
   for (std::size_t i = ranges_[color].first + first; i < ranges_[color].first + end; ++i) {
@@ -109,7 +124,7 @@ void ColouredBalls::fill(const ColouredBallsRun& run, std::size_t color, std::si
       if (entry == k_no_joint) {
         empty_lane(lane, blocks_[i]);
       } else {
-        fill_lane(run, entries_[entry], lane, blocks_[i]);
+        fill_lane(run, world, entries_[entry], lane, blocks_[i]);
       }
     }
     kernels.begin(&blocks_[i], 1, run.places, run.inertias, run.before, substep_rate_);
@@ -117,35 +132,30 @@ void ColouredBalls::fill(const ColouredBallsRun& run, std::size_t color, std::si
 }
 
 // Fills a lane, and writes the places of bodies that are not pushed.
-void ColouredBalls::fill_lane(const ColouredBallsRun& run, const Entry& entry, std::size_t lane,
-                              BallBlock& block) {
-  const JointRecord& joint = *entry.record;
-  const auto exponent_of = [&](const End& end) {
-    return end.pushed ? run.bodies[end.row].inverse_inertia.exponent : 0;
+void ColouredBalls::fill_lane(const ColouredBallsRun& run, const JointedWorld& world,
+                              const Entry& entry, std::size_t lane, BallBlock& block) {
+  const auto place = [&](std::uint32_t row, std::uint32_t body) {
+    run.places[row] = body_place(world.bodies[body].position, world.rotations[body]);
   };
-  const auto scale_of = [](const End& end) {
-    return 20 + (end.pushed ? end.record->scale_exponent : 0);
-  };
-  for (const End* end : {&entry.a, &entry.b}) {
-    if (!end->pushed) run.places[end->row] = body_place(end->record->position, *end->rotation);
-  }
-  const int of_a = exponent_of(entry.a), of_b = exponent_of(entry.b), pair = std::max(of_a, of_b);
+  if (!entry.pushed_a) place(entry.row_a, world.links[entry.link].body_a);
+  if (!entry.pushed_b) place(entry.row_b, world.links[entry.link].body_b);
+  static constexpr SolverBody k_standing{.is_spherical = true};
+  const SolverBody& a = entry.pushed_a ? run.bodies[entry.row_a] : k_standing;
+  const SolverBody& b = entry.pushed_b ? run.bodies[entry.row_b] : k_standing;
+  const int of_a = a.inverse_inertia.exponent, of_b = b.inverse_inertia.exponent;
+  const int pair = std::max(of_a, of_b);
   LKS_ASSERT(pair - of_a <= k_factor_exponent && pair - of_b <= k_factor_exponent);
-  block.body_a[lane] = lanes::body_velocity_offset(entry.a.row);
-  block.body_b[lane] = lanes::body_velocity_offset(entry.b.row);
-  for (int axis = 0; axis < 3; ++axis) {
-    block.anchor[axis][lane] = pack(joint.anchor_a[axis].raw, joint.anchor_b[axis].raw);
-  }
-  block.scale[lane] = pack(scale_of(entry.a), scale_of(entry.b));
-  if (!turns_alike(entry.a, run) || !turns_alike(entry.b, run))
-    block.scale[lane] |= lanes::k_special_balls;
+  block.body_a[lane] = lanes::body_velocity_offset(entry.row_a);
+  block.body_b[lane] = lanes::body_velocity_offset(entry.row_b);
+  for (int axis = 0; axis < 3; ++axis)
+    block.anchor[axis][lane] = pack(entry.anchor_a[axis].raw, entry.anchor_b[axis].raw);
+  block.scale[lane] = pack(20 + a.scale_exponent, 20 + b.scale_exponent);
+  if (!stays_alike(a) || !stays_alike(b)) block.scale[lane] |= lanes::k_special_balls;
   block.factor[lane] = pack(std::int64_t{1} << (k_factor_exponent - pair + of_a),
                             std::int64_t{1} << (k_factor_exponent - pair + of_b));
-  block.share[lane] =
-      pack(share_of_b(entry.a.record->inverse_mass_value(), entry.b.record->inverse_mass_value()),
-           k_inertia_bits - pair);
-  block.impulse[0][lane] = pack(impulse_of(joint, 0), impulse_of(joint, 1));
-  block.impulse[1][lane] = impulse_of(joint, 2);
+  block.share[lane] = pack(share_of_b(a.inverse_mass, b.inverse_mass), k_inertia_bits - pair);
+  block.impulse[0][lane] = pack(entry.impulse[0], entry.impulse[1]);
+  block.impulse[1][lane] = entry.impulse[2];
 }
 
 void ColouredBalls::solve_positions(const ColouredBallsRun& run, std::size_t color,
@@ -174,11 +184,15 @@ void ColouredBalls::store(std::span<const JointLink> links, std::span<JointRecor
     LKS_ASSERT(entries_[lane_entries_[lane_index]].link < links.size());
     const BallBlock& block = blocks_[lane_index / k_block_lanes];
     const std::size_t lane = lane_index % k_block_lanes;
-    JointRecord& joint = joints[links[entries_[lane_entries_[lane_index]].link].joint];
+    const Entry& entry = entries_[lane_entries_[lane_index]];
+    JointRecord& joint = joints[links[entry.link].joint];
     const std::int32_t impulse[] = {low(block.impulse[0][lane]), high(block.impulse[0][lane]),
                                     low(block.impulse[1][lane])};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      joint.axes[axis].impulse = SolverVelocity::from_raw(impulse[axis]);
+    if (!entry.has_others) continue;
     for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {
-      joint.axes[axis].impulse = SolverVelocity::from_raw(axis < 3 ? impulse[axis] : 0);
+      if (axis >= 3) joint.axes[axis].impulse = {};
       joint.axes[axis].drive_impulse = {};
     }
   }

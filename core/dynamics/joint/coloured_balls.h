@@ -5,6 +5,7 @@
 // of the substep before are part of the bodies' warm start.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,6 +27,13 @@ struct ColouredBallsRun {
   lanes::BodyPlace* places;
 };
 
+/// The world's bodies, by their numbers there, and its joints, in which `add` counted.
+struct JointedWorld {
+  std::span<const JointLink> links;
+  std::span<const BodyRecord> bodies;
+  std::span<const Mat3> rotations;
+};
+
 class ColouredBalls {
  public:
   /// No function but this allocates.
@@ -36,8 +44,6 @@ class ColouredBalls {
 
   /// One end of a joint; a body that is not pushed stands still, in a row of this joint alone.
   struct End {
-    const BodyRecord* record = nullptr;
-    const Mat3* rotation = nullptr;
     std::uint32_t row = 0;
     bool pushed = false;
   };
@@ -58,7 +64,8 @@ class ColouredBalls {
   // Blocks of one colour, counted from its first.
 
   /// Fills them, and adds the velocities that their impulses give to the bodies' warm start.
-  void fill(const ColouredBallsRun& run, std::size_t color, std::size_t first, std::size_t end);
+  void fill(const ColouredBallsRun& run, const JointedWorld& world, std::size_t color,
+            std::size_t first, std::size_t end);
   void solve_positions(const ColouredBallsRun& run, std::size_t color, std::size_t first,
                        std::size_t end);
   void relax(const ColouredBallsRun& run, std::size_t color, std::size_t first, std::size_t end);
@@ -79,15 +86,20 @@ class ColouredBalls {
     std::size_t first = 0;
     std::size_t count = 0;
   };
+  // All that fills a lane, in a line of the cache: records are larger, and lanes take them in
+  // another order.
   struct Entry {
-    const JointRecord* record;
     std::uint32_t link;
-    End a, b;
+    std::uint32_t row_a, row_b;
+    bool pushed_a, pushed_b;
+    bool has_others;  // other impulses than those of the three axes
+    Vec3<Length> anchor_a, anchor_b;
+    std::array<std::int32_t, 3> impulse;
   };
 
   [[nodiscard]] const lanes::BallKernels& kernels_of(std::size_t color) const;
-  static void fill_lane(const ColouredBallsRun& run, const Entry& entry, std::size_t lane,
-                        lanes::BallBlock& block);
+  static void fill_lane(const ColouredBallsRun& run, const JointedWorld& world, const Entry& entry,
+                        std::size_t lane, lanes::BallBlock& block);
 
   std::int32_t substep_rate_;
   ConstraintGraph graph_;

@@ -28,6 +28,18 @@ bool fits_ball(const LinkedBody& body, const Vec3<Length>& anchor) {
   return inside(anchor.x) && inside(anchor.y) && inside(anchor.z);
 }
 
+// Whether a joint is a ball that nothing limits or drives, on bodies that the coloured balls can
+// fasten.
+bool fits_balls(const JointSystem& system, const AddedJoint& added) {
+  const JointRecord& joint = *added.record;
+  return is_point(joint) && fits_ball(system.bodies[added.a], joint.anchor_a) &&
+         fits_ball(system.bodies[added.b], joint.anchor_b);
+}
+
+bool is_motor(const JointAxisRecord& axis) {
+  return axis.is_driven() && !axis.is_spring();
+}
+
 }  // namespace
 
 JointPlanner::JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loops,
@@ -37,6 +49,13 @@ JointPlanner::JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loo
   visited_.reserve(body_capacity);
   sorted_.reserve(joint_capacity);
   in_balls_.reserve(joint_capacity);
+}
+
+void JointPlanner::read(AddedJoint& joint) {
+  joint.fits_balls = fits_balls(system_, joint);
+  joint.has_motor = std::ranges::any_of(joint.record->axes, is_motor);
+  joint.is_driven = is_driven(*joint.record);
+  note_last_pull(system_, joint);
 }
 
 std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_contacts) {
@@ -143,7 +162,7 @@ void JointPlanner::plan_singles(const JointGroup& group) {
   const auto rest = std::partition(begin, end, [&](std::uint32_t index) {
     AddedJoint& added = system_.added[index];
     added.place = 0;
-    if (!fits_net(added)) return false;
+    if (!added.fits_balls) return false;
     added.joint = AddedJoint::k_in_balls;
     system_.bodies[added.a].in_balls = system_.bodies[added.b].in_balls = true;
     return true;
@@ -209,9 +228,7 @@ bool JointPlanner::has_loops(const JointGroup& group) const {
 // A motor pushes as well as locks do, and has a solution along with them.
 bool JointPlanner::has_motors(const JointGroup& group) const {
   return std::ranges::any_of(system_.joints_of(group), [this](std::uint32_t index) {
-    return std::ranges::any_of(system_.added[index].record->axes, [](const JointAxisRecord& axis) {
-      return axis.is_driven() && !axis.is_spring();
-    });
+    return system_.added[index].has_motor;
   });
 }
 
@@ -224,13 +241,6 @@ bool JointPlanner::is_pressed(const JointGroup& group) const {
     pulled = pulled || system_.bodies[index].pulled;
   }
   return touches && pulled;
-}
-
-// Balls that nothing limits or drives, on bodies that a ball can fasten.
-bool JointPlanner::fits_net(const AddedJoint& added) const {
-  const JointRecord& joint = *added.record;
-  return is_point(joint) && fits_ball(system_.bodies[added.a], joint.anchor_a) &&
-         fits_ball(system_.bodies[added.b], joint.anchor_b);
 }
 
 }  // namespace lockstone

@@ -22,6 +22,9 @@ class JointPlanner {
   [[gnu::cold]] JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loops,
                              std::size_t body_capacity, std::size_t joint_capacity);
 
+  /// As a joint is added with its bodies: reads all that planning asks of its record.
+  void read(AddedJoint& joint);
+
   /// Once all joints are added: fills the system's groups, clusters and joints. Returns the added
   /// joints that are left to the coloured balls.
   std::span<const std::uint32_t> plan(std::uint32_t first_without_contacts);
@@ -36,7 +39,6 @@ class JointPlanner {
   [[nodiscard]] bool has_loops(const JointGroup& group) const;
   [[nodiscard]] bool has_motors(const JointGroup& group) const;
   [[nodiscard]] bool is_pressed(const JointGroup& group) const;
-  [[nodiscard]] bool fits_net(const AddedJoint& added) const;
 
   JointSystem& system_;
   TreeLocks& trees_;

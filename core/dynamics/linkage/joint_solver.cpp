@@ -58,6 +58,7 @@ void JointSolver::add(const JointRecord& record, const Side& a, const Side& b) {
   added.record = &record;
   added.a = gather(a);
   added.b = gather(b);
+  planner_.read(added);
 }
 
 void JointSolver::begin(const JointRun& run) {

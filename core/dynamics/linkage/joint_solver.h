@@ -114,6 +114,9 @@ class JointSolver {
     return system_.added[added].joint;
   }
 
+  /// Whether springs, motors or turning locks may give energy in it.
+  [[nodiscard]] bool is_driven(std::size_t added) const { return system_.added[added].is_driven; }
+
   /// The clusters one by one, for islands that are solved whole.
   [[nodiscard]] WholeClusters& whole_clusters() { return whole_clusters_; }
 

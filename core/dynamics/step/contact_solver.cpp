@@ -163,7 +163,9 @@ void ContactSolver::prepare_piece(const ContactScene& scene, const Stage& stage,
     case StageKind::place_joined:
       return joints_.solver().place(joints_.run(), first, end);
     case StageKind::fill_balls:
-      return joints_.balls().fill(joints_.balls_run(), stage.color, first, end);
+      return joints_.balls().fill(joints_.balls_run(),
+                                  {scene.joint_links, scene.bodies, scene.rotations}, stage.color,
+                                  first, end);
     default:
       LKS_ASSERT(stage.kind == StageKind::fill_contacts);
       return constraints_.prepare(scene, stage.color, first, end);

@@ -94,12 +94,12 @@ void forget_pulls(JointSystem& system) {
 
 }  // namespace
 
+void note_last_pull(JointSystem& system, AddedJoint& joint) {
+  joint.last_pull = last_pull(*joint.record);
+  if (joint.last_pull != 0) add_last_pull(system, joint);
+}
+
 void find_pulled_links(JointSystem& system) {
-  forget_pulls(system);
-  for (AddedJoint& joint : system.added) {
-    joint.last_pull = last_pull(*joint.record);
-    add_last_pull(system, joint);
-  }
   for (std::uint32_t i = 0; i < system.bodies.size(); ++i) {
     LinkedBody& body = system.bodies[i];
     body.lever_inertia = lever_inertia(system, i);

@@ -13,6 +13,9 @@
 
 namespace lockstone {
 
+/// As a joint is added: sums how hard it pulled its bodies in the last tick.
+void note_last_pull(JointSystem& system, AddedJoint& joint);
+
 /// When all joints are added: marks the bodies that joints pulled hard in the last tick.
 void find_pulled_links(JointSystem& system);
 

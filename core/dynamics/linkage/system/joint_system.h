@@ -29,6 +29,11 @@ struct AddedJoint {
   std::uint32_t place = 0;     // within its group, in the order of elimination
   std::uint32_t joint = 0;     // in JointSystem::joints; k_in_balls if the coloured balls have it
   std::int64_t last_pull = 0;  // how hard it pulled as the last tick ended, Q30
+
+  // All else that planning asks of the record, which is large.
+  bool fits_balls = false;  // the coloured balls can have it
+  bool has_motor = false;
+  bool is_driven = false;  // `lockstone::is_driven`
 };
 
 struct JointGroup {

@@ -49,7 +49,7 @@ void TickJoints::gather_balls(const ContactScene& scene) {
     const auto end = [&](std::uint32_t body) -> ColouredBalls::End {
       const std::uint32_t number = bodies_.number_of(body);
       const BodyRef ref = number != 0 ? BodyRef::numbered(number) : bodies_.add_standing();
-      return {&scene.bodies[body], &scene.rotations[body], bodies_.row_of(ref), number != 0};
+      return {bodies_.row_of(ref), number != 0};
     };
     const ColouredBalls::End a = end(link.body_a), b = end(link.body_b);
     balls_.add(i, scene.joints[link.joint], a, b);

@@ -124,7 +124,7 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
     const JointLink& link = scene.joint_links[i];
     IslandTally& tally = islands.tally(islands.of(scene, bodies, link));
     if (joints.solver().number_of(i) == JointSolver::k_in_balls) tally.iterates_only = true;
-    const bool drives = is_driven(scene.joints[link.joint]);
+    const bool drives = joints.solver().is_driven(i);
     const bool is_free =
         scene.bodies[link.body_a].is_dynamic() && scene.bodies[link.body_b].is_dynamic() && !drives;
     if (!is_free) tally.is_carried = true;
