@@ -81,6 +81,7 @@ class JointScene {
     places.resize(records.size() + 1);
     for (LinkedBody& body : system.bodies) {
       body.rate = RoundDivisor(system.step.substep_rate());
+      body.inverse_inertia = inverse_inertia(*body.record, rotation_);
       body.after = body.pose;
     }
     for (JointGroup& group : system.groups) {

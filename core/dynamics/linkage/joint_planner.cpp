@@ -52,9 +52,9 @@ JointPlanner::JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loo
 }
 
 void JointPlanner::read(AddedJoint& joint) {
-  joint.fits_balls = fits_balls(system_, joint);
-  joint.has_motor = std::ranges::any_of(joint.record->axes, is_motor);
   joint.is_driven = is_driven(*joint.record);
+  joint.has_motor = joint.is_driven && std::ranges::any_of(joint.record->axes, is_motor);
+  joint.fits_balls = !joint.is_driven && fits_balls(system_, joint);
   note_last_pull(system_, joint);
 }
 
@@ -182,6 +182,13 @@ void JointPlanner::add_cluster(const JointGroup& group, std::uint32_t first_grou
   sorted_.clear();
   for (const std::uint32_t index : system_.joints_of(group)) {
     if (system_.added[index].joint != AddedJoint::k_in_balls) sorted_.push_back(index);
+  }
+  for (const std::uint32_t body : system_.bodies_of(group)) {
+    if (sorted_.empty()) {
+      system_.bodies[body].only_balls = true;
+    } else {
+      system_.bodies[body].clear_notes();
+    }
   }
   if (sorted_.empty()) return;
   std::sort(sorted_.begin(), sorted_.end());

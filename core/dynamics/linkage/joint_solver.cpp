@@ -67,6 +67,7 @@ void JointSolver::begin(const JointRun& run) {
   for (LinkedBody& body : system_.bodies) {
     body.centred = body.pushed && !body.in_balls && !body.touches && !body.is_among_contacts;
     body.rate = rate;
+    if (body.pushed) body.inverse_inertia = run.bodies[body.solver].inverse_inertia;
     // Bodies that nothing pushes have a known motion.
     if (!body.pushed) body.after = pose_after(run, body);
   }

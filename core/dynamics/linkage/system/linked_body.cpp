@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 
 #include <lockstone/assert.h>
 
@@ -61,17 +62,90 @@ std::int64_t moving_speed(std::int64_t x) {
   return bounded(x, std::int64_t{1000} << 50);
 }
 
+using Spin = std::array<std::int64_t, 3>;
+
+Spin moving_spin(const lanes::BodyVelocity& row) {
+  return {moving_speed(row.spin[0]), moving_speed(row.spin[1]), moving_speed(row.spin[2])};
+}
+
+bool turns(const LinkedBody& body, const lanes::BodyVelocity& row) {
+  return (row.spin[0] | row.spin[1] | row.spin[2]) != 0 && body.rotates;
+}
+
+// How far it moves along an axis.
+Position step_of(const LinkedBody& body, std::int64_t velocity) {
+  return Position::from_raw(raw::round_shift(body.rate.quotient(velocity), 18));
+}
+
+Quat turned(const LinkedBody& body, const Spin& spin, const InverseInertia& inertia,
+            const RoundDivisor& rate) {
+  const std::array<std::int64_t, 3> w = surface_velocity(inertia, spin);
+  const auto angle = [&](std::int64_t x) {
+    return RotationComponent::from_raw(raw::scale_binary(rate.quotient(x), -body.scale));
+  };
+  return integrate(body.pose.orientation, {angle(w[0]), angle(w[1]), angle(w[2])});
+}
+
+InverseInertia half_on(const LinkedBody& body, const Spin& spin) {
+  const Quat half = turned(body, spin, body.inverse_inertia, body.rate.doubled());
+  return inverse_inertia_of(body, to_matrix(half));
+}
+
+// After it moved: its inertia as the solver and kernels read it.
+void place_inertia(const JointRun& run, LinkedBody& body) {
+  body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
+  run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
+  run.inertias[body.solver] = body_inertia(body.inverse_inertia);
+}
+
+// As `move_body`, of a body without notes: nobody has looked where it will be.
+void move_by_balls(const JointRun& run, LinkedBody& body) {
+  LKS_ASSERT(body.pushed && body.in_balls && !body.has_looked && !body.centred);
+  const lanes::BodyVelocity& row = run.rows[body.solver];
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    body.pose.position[i] += step_of(body, moving_speed(row.velocity[axis]));
+  }
+  if (turns(body, row)) {
+    const Spin spin = moving_spin(row);
+    body.pose.orientation = turned(
+        body, spin, body.is_spherical ? body.inverse_inertia : half_on(body, spin), body.rate);
+    body.pose.rotation = to_matrix(body.pose.orientation);
+  }
+  run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
+  if (!body.is_spherical) place_inertia(run, body);
+}
+
 }  // namespace
+
+void LinkedBody::clear_notes() {
+  std::construct_at(&after);
+  std::construct_at(&looked);
+  std::construct_at(&inertia_ahead);
+  std::construct_at(&unpushed);
+  std::construct_at(&saved_row);
+  std::construct_at(&start);
+  std::construct_at(&start_position);
+  std::construct_at(&start_inertia);
+  std::construct_at(&start_rotation);
+  std::construct_at(&mass);
+  starts_heavier = false;
+}
 
 void set_body(const BodyRecord& record, const Mat3& rotation, std::uint32_t solver,
               LinkedBody& body) {
   body.record = &record;
   body.pose = {record.position, record.orientation, rotation};
   set_principal(body);
-  body.inverse_inertia = inverse_inertia_of(body, rotation);
   body.solver = solver;
   body.scale = record.scale_exponent;
+  body.rotates = record.rotates();
+  body.is_spherical = record.has_spherical_inertia();
   body.pushed = solver != 0 && record.is_dynamic();
+  if (!body.pushed) {
+    body.inverse_inertia = inverse_inertia_of(body, rotation);
+    body.clear_notes();
+  }
   LKS_ASSERT(!body.pushed || record.inverse_mass > 0);
 }
 
@@ -118,27 +192,15 @@ JointPose pose_after(const JointRun& run, LinkedBody& body) {
     const auto axis = static_cast<std::size_t>(i);
     std::int64_t velocity = moving_speed(row.velocity[axis]);
     if (body.centred && !body.moves_first) velocity -= solver.gain[axis] * (1 << 17);
-    after.position[i].raw += raw::round_shift(body.rate.quotient(velocity), 18);
+    after.position[i] += step_of(body, velocity);
   }
-  if ((row.spin[0] | row.spin[1] | row.spin[2]) == 0 || !body.record->rotates()) return after;
-  const std::array<std::int64_t, 3> spin = {moving_speed(row.spin[0]), moving_speed(row.spin[1]),
-                                            moving_speed(row.spin[2])};
-  const int scale = body.record->scale_exponent;
-  const auto turned = [&](const InverseInertia& inertia, const RoundDivisor& rate) {
-    const std::array<std::int64_t, 3> w = surface_velocity(inertia, spin);
-    const auto angle = [&](std::int64_t x) {
-      return RotationComponent::from_raw(raw::scale_binary(rate.quotient(x), -scale));
-    };
-    return integrate(body.pose.orientation, {angle(w[0]), angle(w[1]), angle(w[2])});
-  };
-  if (body.pushed && !body.record->has_spherical_inertia()) {
-    if (!body.has_looked) {
-      const Quat half = turned(body.inverse_inertia, body.rate.doubled());
-      body.inertia_ahead = inverse_inertia_of(body, to_matrix(half));
-    }
-    after.orientation = turned(body.inertia_ahead, body.rate);
+  if (!turns(body, row)) return after;
+  const Spin spin = moving_spin(row);
+  if (body.pushed && !body.is_spherical) {
+    if (!body.has_looked) body.inertia_ahead = half_on(body, spin);
+    after.orientation = turned(body, spin, body.inertia_ahead, body.rate);
   } else {
-    after.orientation = turned(body.inverse_inertia, body.rate);
+    after.orientation = turned(body, spin, body.inverse_inertia, body.rate);
   }
   after.rotation = to_matrix(after.orientation);
   return after;
@@ -154,6 +216,7 @@ void look_ahead(const JointRun& run, LinkedBody& body) {
 
 void move_body(const JointRun& run, LinkedBody& body) {
   LKS_ASSERT(body.solver != 0);
+  if (body.only_balls) return move_by_balls(run, body);
   const lanes::BodyVelocity& row = run.rows[body.solver];
   const bool is_known = body.has_looked && is_alike(row, body.looked);
   body.pose = is_known ? body.after : pose_after(run, body);
@@ -161,10 +224,7 @@ void move_body(const JointRun& run, LinkedBody& body) {
   if (body.in_balls) {
     run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
   }
-  if (!body.record->is_dynamic() || body.record->has_spherical_inertia()) return;
-  body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
-  run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
-  run.inertias[body.solver] = body_inertia(body.inverse_inertia);
+  if (body.record->is_dynamic() && !body.is_spherical) place_inertia(run, body);
 }
 
 }  // namespace lockstone

@@ -18,18 +18,27 @@
 namespace lockstone {
 
 struct alignas(64) LinkedBody {
+  // Notes are unset, since bodies that only coloured balls hold have none: see `clear_notes`.
+  // NOLINTNEXTLINE(modernize-use-equals-default): it leaves the members of unions unset.
+  LinkedBody() {}
+
   // All that planning reads, in one line of the cache.
   const BodyRecord* record = nullptr;
   std::uint32_t solver = 0;        // number in the contact solver, 0 for a body that does not move
-  int scale = 0;                   // exponent
+  std::int8_t scale = 0;           // exponent
+  bool rotates = false;            // as the record says
+  bool is_spherical = false;       // its principal moments are equal
   bool pushed = false;             // impulses change its velocity
   bool touches = false;            // has contacts
   bool is_among_contacts = false;  // its joints are in the problem of its island's contacts
   bool in_balls = false;           // a joint of it is left to the coloured balls
+  bool only_balls = false;         // so are all joints of its group: it has no notes
   bool centred = false;            // velocity Verlet: half a push, a move, half a push
   bool moves_first = false;        // position Verlet: half a move, a push, half a move
   bool is_whole = false;           // moved with the rest of its island
   bool pulled = false;             // an eighth as hard as needs more inertia
+  bool has_principal = false;
+  bool has_looked = false;
 
   // Its joints, and how hard they pull it.
   std::uint32_t first_joint = 0;  // in JointSystem::by_body
@@ -39,28 +48,31 @@ struct alignas(64) LinkedBody {
   std::int64_t lever_inertia = 0;  // Q30: m·d² of its anchors, besides its own inertia
   std::int64_t least_inertia = 0;  // Q30: a power of two, or 0 for its own inertia
 
-  // Where it is, and where it will be after the substep with its present velocity.
+  // Where it is, and how heavy it is to turn: all else that moves it, in two lines. The inertia of
+  // a pushed body is known once the tick begins.
   JointPose pose;
-  JointPose after;
-  lanes::BodyVelocity looked{};  // the velocity that `after` was found with
-  bool has_looked = false;
+  InverseInertia inverse_inertia{};
   RoundDivisor rate{};  // 1 / the time that it moves for
 
-  // How heavy it is to turn.
-  PrincipalInverse principal{};  // if it has such
-  bool has_principal = false;
-  InverseInertia inverse_inertia{};
-  InverseInertia inertia_ahead{};  // half a substep on, as far as is known
+  // clang-format off
+  union { PrincipalInverse principal; };  // if it has such
 
+  // Notes. Where it will be after the substep with its present velocity, and that velocity.
+  union { JointPose after; };
+  union { lanes::BodyVelocity looked; };
+  union { InverseInertia inertia_ahead; };  // half a substep on, as far as is known
   // Velocities and energies noted by stages of the substep.
-  lanes::BodyVelocity unpushed{};  // as the present stage found it
-  lanes::BodyVelocity saved_row{};
-  lanes::BodyVelocity start{};  // of the substep
-  Vec3<Position> start_position{};
-  InverseInertia start_inertia{};  // and where it was then
-  Mat3 start_rotation{};
+  union { lanes::BodyVelocity unpushed; };  // as the present stage found it
+  union { lanes::BodyVelocity saved_row; };
+  union { lanes::BodyVelocity start; };  // of the substep
+  union { Vec3<Position> start_position; };
+  union { InverseInertia start_inertia; };  // and where it was then
+  union { Mat3 start_rotation; };
+  union { BlockFloat mass; };  // as a part of that of its cluster's heaviest body
+  // clang-format on
   bool starts_heavier = false;  // to turn than it is
-  BlockFloat mass{};            // as a part of that of its cluster's heaviest body
+
+  void clear_notes();
 };
 
 /// Fills a new one as a tick finds the body.
