@@ -29,16 +29,6 @@ std::int32_t impulse_of(const JointRecord& record, std::size_t axis) {
   return std::clamp(record.axes[axis].impulse.raw, -lanes::k_most_impulse, lanes::k_most_impulse);
 }
 
-// Whether other impulses are kept than those along the first three axes.
-bool has_other_impulses(const JointRecord& joint) {
-  std::int32_t any = 0;
-  for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {
-    any |= joint.axes[axis].drive_impulse.raw;
-    if (axis >= 3) any |= joint.axes[axis].impulse.raw;
-  }
-  return any != 0;
-}
-
 // Whether it turns alike about all axes, and will until the tick ends.
 bool stays_alike(const SolverBody& body) {
   return body.is_spherical && turns_alike(body.inverse_inertia);
@@ -78,7 +68,8 @@ void ColouredBalls::clear(std::uint32_t rows) {
   std::fill(std::begin(ranges_), std::end(ranges_), Range{});
 }
 
-void ColouredBalls::add(std::uint32_t link, const JointRecord& record, const End& a, const End& b) {
+void ColouredBalls::add(std::uint32_t link, const JointRecord& record, bool has_others,
+                        const End& a, const End& b) {
   LKS_ASSERT(a.pushed || b.pushed);
   graph_.add(a.row, a.pushed, b.row, b.pushed);
   entries_.push_back({link,
@@ -86,7 +77,7 @@ void ColouredBalls::add(std::uint32_t link, const JointRecord& record, const End
                       b.row,
                       a.pushed,
                       b.pushed,
-                      has_other_impulses(record),
+                      has_others,
                       record.anchor_a,
                       record.anchor_b,
                       {impulse_of(record, 0), impulse_of(record, 1), impulse_of(record, 2)}});

@@ -48,8 +48,10 @@ class ColouredBalls {
     bool pushed = false;
   };
 
-  /// A joint, in the order of their indices: the colours follow from that order.
-  void add(std::uint32_t link, const JointRecord& record, const End& a, const End& b);
+  /// A joint, in the order of their indices: the colours follow from that order. `has_others`: its
+  /// record has other impulses than those along the first three axes, which are to be cleared.
+  void add(std::uint32_t link, const JointRecord& record, bool has_others, const End& a,
+           const End& b);
 
   /// Gives each colour its blocks and each joint its lane.
   void lay_out();

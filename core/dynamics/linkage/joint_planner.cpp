@@ -36,6 +36,16 @@ bool fits_balls(const JointSystem& system, const AddedJoint& added) {
          fits_ball(system.bodies[added.b], joint.anchor_b);
 }
 
+// Whether the tick before kept other impulses than those along the first three axes.
+bool has_other_impulses(const JointRecord& joint) {
+  std::int32_t any = 0;
+  for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {
+    any |= joint.axes[axis].drive_impulse.raw;
+    if (axis >= 3) any |= joint.axes[axis].impulse.raw;
+  }
+  return any != 0;
+}
+
 bool is_motor(const JointAxisRecord& axis) {
   return axis.is_driven() && !axis.is_spring();
 }
@@ -55,13 +65,14 @@ void JointPlanner::read(AddedJoint& joint) {
   joint.is_driven = is_driven(*joint.record);
   joint.has_motor = joint.is_driven && std::ranges::any_of(joint.record->axes, is_motor);
   joint.fits_balls = !joint.is_driven && fits_balls(system_, joint);
+  joint.has_other_impulses = has_other_impulses(*joint.record);
+  for (const std::uint32_t body : {joint.a, joint.b})
+    if (system_.bodies[body].pushed) ++system_.bodies[body].joint_count;
   note_last_pull(system_, joint);
 }
 
 std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_contacts) {
-  for (LinkedBody& body : system_.bodies)
-    body.touches = body.pushed && body.solver < first_without_contacts;
-  link_bodies();
+  link_bodies(first_without_contacts);
   find_pulled_links(system_);
   trees_.clear();
   loops_.clear();
@@ -83,29 +94,24 @@ std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_co
   return in_balls_;
 }
 
-// Lists the joints of each pushed body, by index.
-void JointPlanner::link_bodies() {
+// Lists the joints of each pushed body, by index. `read` has counted them.
+void JointPlanner::link_bodies(std::uint32_t first_without_contacts) {
   std::vector<LinkedBody>& bodies = system_.bodies;
-  for (LinkedBody& body : bodies)
-    body.joint_count = 0;
-  const auto for_each_end = [&](auto&& f) {
-    for (std::uint32_t i = 0; i < system_.added.size(); ++i) {
-      for (const std::uint32_t body : {system_.added[i].a, system_.added[i].b})
-        if (bodies[body].pushed) f(bodies[body], i);
-    }
-  };
-  for_each_end([](LinkedBody& body, std::uint32_t) { ++body.joint_count; });
   std::uint32_t total = 0;
   for (LinkedBody& body : bodies) {
+    body.touches = body.pushed && body.solver < first_without_contacts;
     body.first_joint = total;
     total += body.joint_count;
     body.joint_count = 0;
   }
   LKS_ASSERT(total <= 2 * system_.added.size());
-  system_.by_body.assign(total, 0);
-  for_each_end([&](LinkedBody& body, std::uint32_t joint) {
-    system_.by_body[body.first_joint + body.joint_count++] = joint;
-  });
+  system_.by_body.resize(total);
+  for (std::uint32_t i = 0; i < system_.added.size(); ++i) {
+    for (const std::uint32_t index : {system_.added[i].a, system_.added[i].b}) {
+      LinkedBody& body = bodies[index];
+      if (body.pushed) system_.by_body[body.first_joint + body.joint_count++] = i;
+    }
+  }
 }
 
 // Finds all joints connected to a body, breadth first. Backwards, each joint of a tree comes after
@@ -139,13 +145,14 @@ void JointPlanner::find_group(std::uint32_t root) {
 }
 
 void JointPlanner::plan_group(JointGroup group) {
+  // The pushed bodies of a tree on the ground are as many as its joints.
+  const bool has_few_loops = group.count <= group.body_count + k_most_loops;
+  if (!has_few_loops && !loops_.may_fit(group)) return plan_singles(group);
   std::reverse(system_.order.begin() + group.first, system_.order.end());
   const std::span<const std::uint32_t> joints = system_.joints_of(group);
   LKS_ASSERT(joints.size() == group.count);
   for (std::uint32_t k = 0; k < group.count; ++k)
     system_.added[joints[k]].place = k;
-  // The pushed bodies of a tree on the ground are as many as its joints.
-  const bool has_few_loops = group.count <= group.body_count + k_most_loops;
   const bool needs_loops = has_loops(group) || has_motors(group) || is_pressed(group);
   if (needs_loops && loops_.plan(group)) return system_.groups.push_back(group);
   if (!has_few_loops || !trees_.plan(group)) return plan_singles(group);

@@ -22,7 +22,8 @@ class JointPlanner {
   [[gnu::cold]] JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loops,
                              std::size_t body_capacity, std::size_t joint_capacity);
 
-  /// As a joint is added with its bodies: reads all that planning asks of its record.
+  /// As a joint is added with its bodies, which count it: reads all that planning asks of its
+  /// record.
   void read(AddedJoint& joint);
 
   /// Once all joints are added: fills the system's groups, clusters and joints. Returns the added
@@ -30,7 +31,7 @@ class JointPlanner {
   std::span<const std::uint32_t> plan(std::uint32_t first_without_contacts);
 
  private:
-  void link_bodies();
+  void link_bodies(std::uint32_t first_without_contacts);
   void find_group(std::uint32_t root);
   void plan_group(JointGroup group);
   void plan_singles(const JointGroup& group);

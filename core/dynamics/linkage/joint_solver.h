@@ -117,6 +117,11 @@ class JointSolver {
   /// Whether springs, motors or turning locks may give energy in it.
   [[nodiscard]] bool is_driven(std::size_t added) const { return system_.added[added].is_driven; }
 
+  /// Whether its record has impulses that no ball joint has.
+  [[nodiscard]] bool has_other_impulses(std::size_t added) const {
+    return system_.added[added].has_other_impulses;
+  }
+
   /// The clusters one by one, for islands that are solved whole.
   [[nodiscard]] WholeClusters& whole_clusters() { return whole_clusters_; }
 

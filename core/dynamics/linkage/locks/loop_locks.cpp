@@ -59,7 +59,7 @@ void LoopLocks::clear() {
 }
 
 bool LoopLocks::plan(JointGroup& group) {
-  if (loops_ == nullptr || !ProximalLocks::may_fit(group.body_count, group.count)) return false;
+  if (!may_fit(group)) return false;
   const std::span<const std::uint32_t> bodies = system_.bodies_of(group);
   LKS_ASSERT(group.body_count == bodies.size());
   for (std::uint32_t i = 0; i < bodies.size(); ++i)

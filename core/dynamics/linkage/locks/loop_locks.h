@@ -29,6 +29,10 @@ class LoopLocks {
 
   /// Plans the factor of a group whose joints are not made yet. False if it is too large.
   [[nodiscard]] bool plan(JointGroup& group);
+  /// Otherwise `plan` refuses it.
+  [[nodiscard]] bool may_fit(const JointGroup& group) const {
+    return loops_ != nullptr && ProximalLocks::may_fit(group.body_count, group.count);
+  }
 
   /// At the beginning of a substep: locks and motors begin with no impulses. Those of the last one
   /// that rows of loops hold against each other would turn with the bodies, and grow.

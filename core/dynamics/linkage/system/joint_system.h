@@ -33,7 +33,8 @@ struct AddedJoint {
   // All else that planning asks of the record, which is large.
   bool fits_balls = false;  // the coloured balls can have it
   bool has_motor = false;
-  bool is_driven = false;  // `lockstone::is_driven`
+  bool is_driven = false;           // `lockstone::is_driven`
+  bool has_other_impulses = false;  // than those along the first three axes
 };
 
 struct JointGroup {

@@ -116,13 +116,15 @@ void StillIslands::connect(std::uint32_t a, std::uint32_t b, bool differs) {
   const auto stands = [&](std::uint32_t body) {
     return !world_.bodies[body].is_dynamic() && !has_motion(world_.bodies[body]);
   };
-  const bool stirs = differs || !(is_solved(a) || stands(a)) || !(is_solved(b) || stands(b));
-  for (const std::uint32_t body : {a, b}) {
-    if (!is_solved(body)) continue;
+  const bool is_solved_a = is_solved(a), is_solved_b = is_solved(b);
+  const bool stirs = differs || !(is_solved_a || stands(a)) || !(is_solved_b || stands(b));
+  const auto tie = [&](std::uint32_t body) {
     is_tied_[body] = 1;
     if (stirs) stir(body);
-  }
-  if (is_solved(a) && is_solved(b)) islands_.join(a, b);
+  };
+  if (is_solved_a) tie(a);
+  if (is_solved_b) tie(b);
+  if (is_solved_a && is_solved_b) islands_.join(a, b);
 }
 
 bool StillIslands::differs(std::size_t contact) const {
