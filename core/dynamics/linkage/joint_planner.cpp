@@ -1,6 +1,7 @@
 #include "core/dynamics/linkage/joint_planner.h"
 
 #include <algorithm>
+#include <array>
 
 #include <lockstone/assert.h>
 
@@ -28,11 +29,15 @@ bool fits_ball(const LinkedBody& body, const Vec3<Length>& anchor) {
   return inside(anchor.x) && inside(anchor.y) && inside(anchor.z);
 }
 
-// Whether a joint is a ball that nothing limits or drives, on bodies that the coloured balls can
-// fasten.
+// Whether a joint that nothing drives is a ball without limits, on bodies that the coloured balls
+// can fasten.
 bool fits_balls(const JointSystem& system, const AddedJoint& added) {
+  constexpr auto k_locked = static_cast<std::uint8_t>(AxisMode::locked);
+  constexpr auto k_free = static_cast<std::uint8_t>(AxisMode::free);
+  constexpr std::array k_point_modes{k_locked, k_locked, k_locked, k_free, k_free, k_free};
   const JointRecord& joint = *added.record;
-  return is_point(joint) && fits_ball(system.bodies[added.a], joint.anchor_a) &&
+  return joint.is(JointKind::ball) && joint.modes == k_point_modes &&
+         fits_ball(system.bodies[added.a], joint.anchor_a) &&
          fits_ball(system.bodies[added.b], joint.anchor_b);
 }
 
