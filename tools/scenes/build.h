@@ -77,5 +77,6 @@ extern const Scene k_moving_deck;                                        // deck
 extern const Scene k_coaster, k_ratchets;                                // rails.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp
+extern const Scene k_net;                                                // joints.cpp
 
 }  // namespace lockstone::scenes

@@ -1,4 +1,6 @@
 // Scenes of joints.
+#include <vector>
+
 #include "tools/scenes/build.h"
 
 namespace lockstone::scenes {
@@ -26,6 +28,36 @@ void build_chain(World& world, std::uint64_t, const SceneValues& values) {
     joint.frame_b.position.x = -0.5_m;
     join(world, joint);
     last = joint.body_b;
+  }
+}
+
+WorldDef net_world() {
+  WorldDef def = small_world();
+  def.body_capacity = 1024;
+  def.joint_capacity = 2048;
+  return def;
+}
+
+// Plates and balls by turns, held to their neighbours, fall over a post.
+void build_net(World& world, std::uint64_t, const SceneValues& values) {
+  const int side = values[0];
+  add(world, fixed_box({{}, 2_m, {}}, {0.5_m, 2_m, 0.5_m}));
+  add_ground(world, 40_m);
+  std::vector<BodyHandle> net;
+  for (int i = 0; i < side * side; ++i) {
+    const int x = i % side, z = i / side;
+    const Shape shape = (x + z) % 2 == 0 ? Shape::box(0.2_m, 0.05_m, 0.2_m) : Shape::sphere(0.15_m);
+    net.push_back(add(world, loose(shape, {millimetres(500 * x - 250 * (side - 1)), 5_m,
+                                           millimetres(500 * z - 250 * (side - 1))})));
+    const auto hold = [&](int other, Length to_x, Length to_z) {
+      JointDef joint =
+          JointDef::of(JointKind::ball, net[static_cast<std::size_t>(other)], net.back());
+      joint.frame_a.position = {to_x, {}, to_z};
+      joint.frame_b.position = {-to_x, {}, -to_z};
+      join(world, joint);
+    };
+    if (x > 0) hold(i - 1, 0.25_m, {});
+    if (z > 0) hold(i - side, {}, 0.25_m);
   }
 }
 
@@ -168,6 +200,12 @@ constinit const Scene k_chain{
     .define = small_world,
     .builder = build_chain,
     .own_parameters = {{{"links", 10, 2, 60}, {"times heavier", 100, 1, 1000}}}};
+constinit const Scene k_net{.name = "net",
+                            .description = "a net of 289 plates and balls falls over a post",
+                            .golden_ticks = 90,
+                            .define = net_world,
+                            .builder = build_net,
+                            .own_parameters = {{{"side", 17, 2, 30}}}};
 constinit const Scene k_pendulum{"pendulum", "a pendulum, a double one, a rod on a spring", 240,
                                  small_world, build_pendulums};
 constinit const Scene k_bridge{.name = "bridge",

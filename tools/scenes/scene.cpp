@@ -35,7 +35,7 @@ std::span<const Scene> world_scenes() {
       k_drums,      k_cones,     k_coins,         k_crowd,        k_boats,      k_explosion,
       k_one_way,    k_race,      k_ragdoll_drive, k_terrain_edit, k_clubs,      k_coaster,
       k_ratchets,   k_trapdoors, k_dice,          k_pebbles,      k_motorcycle, k_tank,
-      k_characters, k_level,     k_moving_deck,   k_shaken_wall};
+      k_characters, k_level,     k_moving_deck,   k_shaken_wall,  k_net};
   return k_scenes;
 }
 

@@ -195,14 +195,11 @@ void JointPlanner::add_cluster(const JointGroup& group, std::uint32_t first_grou
   for (const std::uint32_t index : system_.joints_of(group)) {
     if (system_.added[index].joint != AddedJoint::k_in_balls) sorted_.push_back(index);
   }
-  for (const std::uint32_t body : system_.bodies_of(group)) {
-    if (sorted_.empty()) {
+  if (sorted_.empty()) {
+    for (const std::uint32_t body : system_.bodies_of(group))
       system_.bodies[body].only_balls = true;
-    } else {
-      system_.bodies[body].clear_notes();
-    }
+    return;
   }
-  if (sorted_.empty()) return;
   std::sort(sorted_.begin(), sorted_.end());
   JointCluster cluster;
   cluster.first_joint = static_cast<std::uint32_t>(system_.joints.size());

@@ -134,7 +134,10 @@ void WholeIslands::leave_out(TickWork& work) const {
   work.relaxes = work.relaxes && contact_count_ != parts_.contacts.size();
   if (bodies_.size() + 1 == work.bodies) work.staged_bodies = 0;
   if (converged_count_ == work.converged) work.converged = 0;
-  if (clusters_.size() == work.clusters) work.clusters = work.joined = 0;
+  if (clusters_.size() != work.clusters) return;
+  work.clusters = 0;
+  // Bodies that coloured balls alone hold are in no cluster.
+  if (work.ball_blocks == BlockCounts{}) work.joined = 0;
 }
 
 void WholeIslands::solve(std::size_t first, std::size_t end) {

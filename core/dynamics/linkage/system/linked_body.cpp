@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <memory>
 
 #include <lockstone/assert.h>
 
@@ -118,20 +117,6 @@ void move_by_balls(const JointRun& run, LinkedBody& body) {
 
 }  // namespace
 
-void LinkedBody::clear_notes() {
-  std::construct_at(&after);
-  std::construct_at(&looked);
-  std::construct_at(&inertia_ahead);
-  std::construct_at(&unpushed);
-  std::construct_at(&saved_row);
-  std::construct_at(&start);
-  std::construct_at(&start_position);
-  std::construct_at(&start_inertia);
-  std::construct_at(&start_rotation);
-  std::construct_at(&mass);
-  starts_heavier = false;
-}
-
 void set_body(const BodyRecord& record, const Mat3& rotation, std::uint32_t solver,
               LinkedBody& body) {
   body.record = &record;
@@ -142,10 +127,7 @@ void set_body(const BodyRecord& record, const Mat3& rotation, std::uint32_t solv
   body.rotates = record.rotates();
   body.is_spherical = record.has_spherical_inertia();
   body.pushed = solver != 0 && record.is_dynamic();
-  if (!body.pushed) {
-    body.inverse_inertia = inverse_inertia_of(body, rotation);
-    body.clear_notes();
-  }
+  if (!body.pushed) body.inverse_inertia = inverse_inertia_of(body, rotation);
   LKS_ASSERT(!body.pushed || record.inverse_mass > 0);
 }
 

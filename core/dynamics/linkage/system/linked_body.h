@@ -18,10 +18,6 @@
 namespace lockstone {
 
 struct alignas(64) LinkedBody {
-  // Notes are unset, since bodies that only coloured balls hold have none: see `clear_notes`.
-  // NOLINTNEXTLINE(modernize-use-equals-default): it leaves the members of unions unset.
-  LinkedBody() {}
-
   // All that planning reads, in one line of the cache.
   const BodyRecord* record = nullptr;
   std::uint32_t solver = 0;        // number in the contact solver, 0 for a body that does not move
@@ -32,7 +28,7 @@ struct alignas(64) LinkedBody {
   bool touches = false;            // has contacts
   bool is_among_contacts = false;  // its joints are in the problem of its island's contacts
   bool in_balls = false;           // a joint of it is left to the coloured balls
-  bool only_balls = false;         // so are all joints of its group: it has no notes
+  bool only_balls = false;         // so are all joints of its group: no stage notes anything
   bool centred = false;            // velocity Verlet: half a push, a move, half a push
   bool moves_first = false;        // position Verlet: half a move, a push, half a move
   bool is_whole = false;           // moved with the rest of its island
@@ -54,25 +50,21 @@ struct alignas(64) LinkedBody {
   InverseInertia inverse_inertia{};
   RoundDivisor rate{};  // 1 / the time that it moves for
 
-  // clang-format off
-  union { PrincipalInverse principal; };  // if it has such
+  PrincipalInverse principal{};  // if it has such
 
   // Notes. Where it will be after the substep with its present velocity, and that velocity.
-  union { JointPose after; };
-  union { lanes::BodyVelocity looked; };
-  union { InverseInertia inertia_ahead; };  // half a substep on, as far as is known
+  JointPose after{};
+  lanes::BodyVelocity looked{};
+  InverseInertia inertia_ahead{};  // half a substep on, as far as is known
   // Velocities and energies noted by stages of the substep.
-  union { lanes::BodyVelocity unpushed; };  // as the present stage found it
-  union { lanes::BodyVelocity saved_row; };
-  union { lanes::BodyVelocity start; };  // of the substep
-  union { Vec3<Position> start_position; };
-  union { InverseInertia start_inertia; };  // and where it was then
-  union { Mat3 start_rotation; };
-  union { BlockFloat mass; };  // as a part of that of its cluster's heaviest body
-  // clang-format on
+  lanes::BodyVelocity unpushed{};  // as the present stage found it
+  lanes::BodyVelocity saved_row{};
+  lanes::BodyVelocity start{};  // of the substep
+  Vec3<Position> start_position{};
+  InverseInertia start_inertia{};  // and where it was then
+  Mat3 start_rotation{};
+  BlockFloat mass{};            // as a part of that of its cluster's heaviest body
   bool starts_heavier = false;  // to turn than it is
-
-  void clear_notes();
 };
 
 /// Fills a new one as a tick finds the body.
