@@ -45,16 +45,17 @@ struct ClampedWords {
   [[nodiscard]] bool fit() const { return excess == 0; }
 };
 
-// The same of words that all fit, in less time: it only looks whether they do, but for the last
-// step of the range, which counts as outside.
+// The same of words that all fit, in less time: it only looks whether they do. The outer half of
+// the range counts as outside.
 struct FittingWords {
+  static constexpr std::int64_t k_bound = std::int64_t{1} << 30;
   std::int64_t bits = 0;
 
   std::int64_t operator()(std::int64_t x) {
-    bits |= lanes::scalar::add(x ^ (x >> 63), 1);
+    bits |= lanes::scalar::add(x, k_bound);
     return x;
   }
-  [[nodiscard]] bool fit() const { return bits >> 31 == 0; }
+  [[nodiscard]] bool fit() const { return static_cast<std::uint64_t>(bits) < 2 * k_bound; }
 };
 
 // Wraps: words that do not fit are found out afterwards.
@@ -362,8 +363,8 @@ void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
   for (std::size_t i = 0; i < k_side; ++i)
     bits |= words[i] ^ (words[i] >> 63);
   if (bits < k_most_word >> grow) {
-    for (std::size_t i = 0; i < k_side; ++i)
-      words[i] = raw::round_shift(words[i] * (std::int64_t{1} << grow), shrink);
+    for (std::int64_t& word : std::span(words).first<k_side>())
+      word = shrink == 0 ? word * (std::int64_t{1} << grow) : raw::round_shift(word, shrink);
     return;
   }
   std::int64_t excess = 0;

@@ -49,14 +49,20 @@ std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& an
   for (std::size_t i = 0; i < 3; ++i)
     most = std::max({most, magnitude(linear[i]), magnitude(angular[i])});
   if (most <= k_most_fast) {  // entries of the root are below √2, so sums of three fit
+    const int shift = 30 - root.shift;
+    RawVec3 turn;
+    std::int64_t bits = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       std::int64_t sum = 0;
       for (std::size_t k = i; k < 3; ++k)
         sum += root.c[k][i] * angular[k];
-      const std::int64_t turn = raw::round_shift(sum, 30 - root.shift);
+      turn[i] = raw::round_shift(sum, shift);
+      bits |= turn[i] ^ (turn[i] >> 63);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
       side[i] = raw::round_shift(linear[i] * part, 30);
-      side[3 + i] = magnitude(turn) >> 32 == 0 ? raw::round_shift(turn * part, 30)
-                                               : product_rounded(turn, part, 30);
+      side[3 + i] = bits >> 32 == 0 ? raw::round_shift(turn[i] * part, 30)
+                                    : product_rounded(turn[i], part, 30);
     }
     return side;
   }
@@ -71,24 +77,24 @@ std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& an
   return side;
 }
 
-// Sums of twelve squares of entries up to 1 fit in 64 bits.
+// Entries are below 2 but for rows of gears and pulleys; then the squares of a pair fit.
 std::int64_t length_of(const Sides& sides) {
-  std::int64_t most = 0;
-  std::uint64_t squares = 0;
+  UInt128 sum{};
+  std::int64_t bits = 0;
   for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
     const std::int64_t a = sides.a[i], b = sides.b[i];
-    most = std::max({most, a, -a, b, -b});
-    squares += static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(a) +
-               static_cast<std::uint64_t>(b) * static_cast<std::uint64_t>(b);
+    bits |= (a ^ (a >> 63)) | (b ^ (b >> 63));
+    sum = sum + UInt128{0, static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(a) +
+                               static_cast<std::uint64_t>(b) * static_cast<std::uint64_t>(b)};
   }
-  LKS_ASSERT(most >= 0);
-  if (most <= k_whole_q30) return static_cast<std::int64_t>(isqrt_rounded(squares));
-  UInt128 sum{};
-  const auto add = [&](std::int64_t x) { sum = sum + multiply_wide(magnitude(x), magnitude(x)); };
-  for (const std::int64_t x : sides.a)
-    add(x);
-  for (const std::int64_t x : sides.b)
-    add(x);
+  LKS_ASSERT(bits >= 0);
+  if (bits >> 31 != 0) {
+    sum = {};
+    for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
+      const std::uint64_t a = magnitude(sides.a[i]), b = magnitude(sides.b[i]);
+      sum = sum + multiply_wide(a, a) + multiply_wide(b, b);
+    }
+  }
   return static_cast<std::int64_t>(isqrt128_rounded(sum));
 }
 
@@ -223,8 +229,11 @@ bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, Proxima
   const std::int64_t length = length_of(sides);
   if (length < k_least_length) return false;
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;
+  const auto scaled = [&](std::int64_t x) {  // no entry is longer than the row
+    return raw::round_shift(x * inverse, 32);
+  };
   for (std::size_t i = 0; i < lanes::k_body_words; ++i)
-    lock.row[i] = scaled_pair(sides, i, inverse);
+    lock.row[i] = lanes::scalar::pack(scaled(sides.a[i]), scaled(sides.b[i]));
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
   lock.to_speed = joint.mass * norm.reciprocal();
   lock.to_impulse = (joint.mass * norm).reciprocal();
