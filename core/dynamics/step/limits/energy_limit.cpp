@@ -84,7 +84,10 @@ void EnergyLimit::list_bodies(const Bodies& all) {
     const std::uint32_t number = numbers_[all.islands.of(i)];
     if (number == k_unwatched || !all.bodies.constants()[i].is_pushed()) continue;
     Island& island = islands_[number];
-    bodies_[island.first + island.count++].number = i;
+    WatchedBody& body = bodies_[island.first + island.count++];
+    body.number = i;
+    body.mass = quotient(island.unit, all.bodies.constants()[i].inverse_mass);
+    add_energy(island.moving_gain, k_moving_gain, body.mass);
   }
 }
 
@@ -94,9 +97,7 @@ void EnergyLimit::note(const Bodies& all, std::uint32_t watched) {
   island.start = island.knows_now ? island.now : 0;
   for (WatchedBody& body : bodies_of(island)) {
     body.start = velocity_of_row(all.bodies.rows()[body.number].velocity);
-    if (!island.knows_now)
-      add_energy(island.start, row_energy(all, body.number),
-                 quotient(island.unit, all.bodies.constants()[body.number].inverse_mass));
+    if (!island.knows_now) add_energy(island.start, row_energy(all, body.number), body.mass);
   }
 }
 
@@ -104,9 +105,7 @@ void EnergyLimit::note(const Bodies& all, std::uint32_t watched) {
 void EnergyLimit::sum(const Bodies& all, Island& island) {
   island.now = 0;
   island.change = -island.start;
-  island.moving_gain = island.start >> k_moving_gain_shift;
   for (const WatchedBody& body : bodies_of(island)) {
-    const BlockFloat mass = quotient(island.unit, all.bodies.constants()[body.number].inverse_mass);
     ProductSum work;  // twice
     const Vec3<Velocity> end = velocity_of_row(all.bodies.rows()[body.number].velocity);
     for (int axis = 0; axis < 3; ++axis)
@@ -114,9 +113,8 @@ void EnergyLimit::sum(const Bodies& all, Island& island) {
                body.start[axis].raw + end[axis].raw);
     const std::int64_t own = row_energy(all, body.number);
     const std::int64_t change = raw::saturating_add(own, -work.rounded(32));
-    add_energy(island.now, own, mass);
-    add_energy(island.change, change, mass);
-    add_energy(island.moving_gain, k_moving_gain, mass);
+    add_energy(island.now, own, body.mass);
+    add_energy(island.change, change, body.mass);
   }
 }
 
@@ -145,7 +143,9 @@ void EnergyLimit::take(const Bodies& all, const Island& island, std::int64_t exc
 void EnergyLimit::limit_moves(const Bodies& all, std::uint32_t watched) {
   Island& island = islands_[watched];
   sum(all, island);
-  if (island.change > island.moving_gain) take(all, island, island.change);
+  const std::int64_t allowed =
+      raw::saturating_add(island.start >> k_moving_gain_shift, island.moving_gain);
+  if (island.change > allowed) take(all, island, island.change);
 }
 
 // The next substep begins as this one ends.

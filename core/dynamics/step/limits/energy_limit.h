@@ -74,10 +74,11 @@ class EnergyLimit {
     std::int64_t start = 0;              // at the substep's beginning
     std::int64_t now = 0;
     std::int64_t change = 0;       // in the substep, besides that work
-    std::int64_t moving_gain = 0;  // the most of it before positions move
+    std::int64_t moving_gain = 0;  // the most of it before positions move, of an island at rest
   };
   struct WatchedBody {
     std::uint32_t number = 0;
+    BlockFloat mass{};       // by the island's unit
     Vec3<Velocity> start{};  // velocity at the beginning of the substep
   };
 
