@@ -85,6 +85,8 @@ struct SharedRows {
   // Where a row moves bodies so little that its scale leaves no shift, the sum keeps more bits.
   [[nodiscard]] std::int64_t scaled(const ProductSum& sum, int scales) const {
     const int shift = scales + excess;
+    if (shift >= 1 && shift <= 120) [[likely]]
+      return scaled_response(sum.rounded(30), inverse_mass, shift);
     if (shift > 120) return 0;
     const int more = std::clamp(1 - shift, 0, 29);
     return scaled_response(sum.rounded(30 - more), inverse_mass, shift + more);
@@ -98,26 +100,28 @@ struct SharedRows {
   RawVec3 JointRow::*response_y;
 };
 
-bool is_only_a_point(const LinkedJoint& joint) {
-  return joint.rows.is_point && joint.rows.locks == 3;
-}
-
-// Row i of a point is along axis i, its lever across. `is_lower`: only as far as the diagonal.
+// Both lock the axes of the world: row i of the first three is along axis i, its lever across;
+// others turn the bodies alone. `is_lower`: only as far as the diagonal.
 void add_shared_points(const LinkedJoint& p, const LinkedJoint& q, const SharedRows& shared,
                        bool is_lower, std::int64_t* block) {
-  for (std::size_t r = 0; r < 3; ++r) {
+  const std::size_t columns = q.rows.locks;
+  LKS_ASSERT(p.rows.locks >= 3 && columns >= 3);
+  for (std::size_t r = 0; r < p.rows.locks; ++r) {
     const JointRow& x = p.rows.rows[r];
     const RawVec3& lever = x.*shared.angular_x;
-    const std::size_t j = (r + 1) % 3, k = (r + 2) % 3;
-    LKS_ASSERT(lever[r] == 0);
-    for (std::size_t s = 0; s < (is_lower ? r + 1 : 3); ++s) {
+    const std::size_t i = r % 3, j = (r + 1) % 3, k = (r + 2) % 3;
+    LKS_ASSERT(r >= 3 || lever[r] == 0);
+    for (std::size_t s = 0; s < (is_lower ? r + 1 : columns); ++s) {
       const JointRow& y = q.rows.rows[s];
       const RawVec3& response = y.*shared.response_y;
       ProductSum sum;
       sum.add(lever[j], response[j]);
       sum.add(lever[k], response[k]);
-      if (r == s) sum.add((x.*shared.linear_x)[r], (y.*shared.linear_y)[r]);
-      block[r * 3 + s] += shared.scaled(sum, p.scales[r] + q.scales[s]);
+      if (r >= 3)
+        sum.add(lever[i], response[i]);
+      else if (r == s)
+        sum.add((x.*shared.linear_x)[r], (y.*shared.linear_y)[r]);
+      block[r * columns + s] += shared.scaled(sum, p.scales[r] + q.scales[s]);
     }
   }
 }
@@ -127,7 +131,7 @@ void add_shared(const LinkedJoint& p, const LinkedJoint& q, const SharedBody& bo
   if (!body.body.pushed) return;
   const SharedRows shared(body);
   const bool is_diagonal = &p == &q;
-  if (is_only_a_point(p) && is_only_a_point(q))
+  if (p.rows.is_point && q.rows.is_point)
     return add_shared_points(p, q, shared, is_diagonal, block);
   const std::size_t columns = q.rows.locks;
   LKS_ASSERT(p.rows.locks <= k_joint_axes && columns <= k_joint_axes);

@@ -1,5 +1,7 @@
 #include "core/dynamics/linkage/rows/row_motion.h"
 
+#include <type_traits>
+
 #include <lockstone/assert.h>
 
 #include "core/dynamics/joint/joint_numbers.h"
@@ -35,12 +37,13 @@ inline void add_velocity(BodyVelocity& body, const RawVec3& velocity, const RawV
   };
   RawVec3 next_velocity, next_spin;
   std::uint64_t beyond = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  const auto add = [&](std::size_t axis) {
     next_velocity[axis] = sum(body.velocity[axis], velocity[axis]);
     next_spin[axis] = sum(body.spin[axis], spin[axis]);
     beyond |= excess(body.velocity[axis]) | excess(next_velocity[axis]);
     beyond |= excess(body.spin[axis]) | excess(next_spin[axis]);
-  }
+  };
+  add(0), add(1), add(2);
   if (beyond >> 62 != 0) [[unlikely]]
     return add_bounded(body, velocity, spin);
   body.velocity = next_velocity;
@@ -56,10 +59,12 @@ inline std::int64_t gain(std::int64_t before, std::int64_t after) {
 
 // The Jacobians of one side of a row.
 struct SideA {
+  static constexpr std::int64_t k_sign = -1;  // of a row along an axis of the world
   static const RawVec3& linear(const JointRow& row) { return row.linear_a; }
   static const RawVec3& angular(const JointRow& row) { return row.angular_a; }
 };
 struct SideB {
+  static constexpr std::int64_t k_sign = 1;
   static const RawVec3& linear(const JointRow& row) { return row.linear_b; }
   static const RawVec3& angular(const JointRow& row) { return row.angular_b; }
 };
@@ -79,11 +84,12 @@ void add_point(Side side, std::span<const JointRow> rows, const RowImpulses& jum
   about_x.add(y[0], jumps[1]), about_x.add(z[0], jumps[2]);
   about_y.add(z[1], jumps[2]), about_y.add(x[1], jumps[0]);
   about_z.add(x[2], jumps[0]), about_z.add(y[2], jumps[1]);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::int64_t along = side.linear(rows[i])[i];  // 1, −1, or 0 along a locked axis
-    LKS_ASSERT(along == 0 || magnitude(along) == static_cast<std::uint64_t>(k_one));
-    velocity[i] = along == 0 ? 0 : along < 0 ? -jumps[i] : jumps[i];
-  }
+  const auto move_along = [&](std::size_t i) {
+    const std::int64_t along = side.linear(rows[i])[i];
+    LKS_ASSERT(along == 0 || along == Side::k_sign * k_one);
+    velocity[i] = along == 0 ? 0 : Side::k_sign * jumps[i];  // 0 along a locked axis
+  };
+  move_along(0), move_along(1), move_along(2);
   for (std::size_t r = 3; r < end; ++r) {
     if (jumps[r] == 0) continue;
     const RawVec3& axis = side.angular(rows[r]);
@@ -154,20 +160,19 @@ void push_side(const JointRun& run, const LinkedJoint& joint, const RowRange& ra
   LKS_ASSERT(range.first <= range.end && range.end <= joint.rows.rows.size());
   if (share.mantissa == 0) return;
   RowImpulses jumps;  // of the body's own velocity
-  RawVec3 velocity, spin;
-  const auto jump = [&](std::size_t r) {
-    jumps[r] = product_rounded(impulses[r], share.mantissa, share.shift);
-  };
-  if (joint.rows.is_point && range.first == 0 && range.end >= 3) {
-    jump(0), jump(1), jump(2);
-    for (std::size_t r = 3; r < range.end; ++r)
-      jump(r);
-    add_point(side, joint.rows.rows, jumps, range.end, velocity, spin);
-  } else {
+  const auto find_jumps = [&](auto shift) {
     for (std::size_t r = range.first; r < range.end; ++r)
-      jump(r);
+      jumps[r] = product_rounded(impulses[r], share.mantissa, shift);
+  };
+  if (share.shift == MassShare::k_shift) [[likely]]
+    find_jumps(std::integral_constant<int, MassShare::k_shift>{});
+  else
+    find_jumps(share.shift);
+  RawVec3 velocity, spin;
+  if (joint.rows.is_point && range.first == 0 && range.end >= 3)
+    add_point(side, joint.rows.rows, jumps, range.end, velocity, spin);
+  else
     add_rows(side, joint.rows.rows, jumps, range, velocity, spin);
-  }
   add_velocity(run.rows[solver], velocity, spin);
 }
 

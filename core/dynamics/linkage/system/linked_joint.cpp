@@ -18,7 +18,9 @@ MassShare mass_share(BlockFloat part, BlockFloat whole) {
   const std::int64_t mantissa =
       raw::round_divide(std::int64_t{part.mantissa} << 31, whole.mantissa);
   LKS_ASSERT(mantissa >> 32 == 0);
-  return {static_cast<std::uint32_t>(mantissa), 31 + distance};
+  const int more = MassShare::k_shift - 31 - distance;
+  if (more < 0) return {mantissa, 31 + distance};
+  return {mantissa << more, MassShare::k_shift};
 }
 
 // `from`, turned in its own axes by angles of Q32 radians.

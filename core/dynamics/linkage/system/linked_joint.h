@@ -18,8 +18,10 @@ namespace lockstone {
 /// A part of a pair's inverse mass as mantissa · 2^-shift; no mantissa for a body that no impulse
 /// moves.
 struct MassShare {
-  std::uint32_t mantissa = 0;
-  int shift = 1;  // 1 … 91
+  static constexpr int k_shift = 62;  // of parts of 2^-31 and more
+
+  std::int64_t mantissa = 0;  // at most 2^62
+  int shift = k_shift;        // at most 91
 };
 
 /// The inverse of a row's response to its own impulse: mantissa · 2^-shift.
