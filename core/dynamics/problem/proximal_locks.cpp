@@ -137,12 +137,13 @@ void ProximalLocks::factor(std::uint32_t index) {
   factor_.factor(group.plan);
 }
 
-void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t row,
-                         std::int64_t impulse) {
+void ProximalLocks::give(std::uint32_t group, std::uint32_t joint,
+                         std::span<const std::int64_t> impulses) {
   Joint& on = joints_[groups_[group].first_joint + joint];
-  if (impulse != 0 && on.uses(row))
-    on.errors[row] +=
-        bounded(on.own[row].times(impulse, k_lock_give_bits + k_less_give_bits), k_row_bound);
+  LKS_ASSERT(impulses.size() >= on.count);
+  for (std::size_t i = 0; i < on.count; ++i)
+    if (impulses[i] != 0 && on.uses(i))
+      on.errors[i] += on.own[i].times(impulses[i], k_lock_give_bits + k_less_give_bits);
 }
 
 // −Jᵀ·r/γ, times 2^-14. Errors are below 2^27 units, so sums of a joint's rows fit.
@@ -170,7 +171,7 @@ bool ProximalLocks::try_solve(const Group& group, int bits) {
 // −(r + J·x)/γ.
 void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) {
   LKS_ASSERT(joint.count <= joint.rows.size());
-  ByRow<std::int64_t> products{};
+  ByRow<std::int64_t> products;  // of rows in use
   BodyVector unmoved{};
   lanes::proximal_kernels().row_products(joint.rows.data(), joint.used,
                                          change_of(group, joint.a, unmoved),
@@ -180,7 +181,7 @@ void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) {
     if (!joint.uses(i)) continue;
     const std::int64_t left = error * k_one + products[i];
     const std::int64_t impulse = -raw::round_shift(left, 30 - k_lock_give_bits);
-    joint.impulses[i] = bounded(joint.to_impulse(i).times(impulse, bits - 50), k_row_bound);
+    joint.impulses[i] = joint.to_impulse(i).times(impulse, bits - 50);
   }
 }
 

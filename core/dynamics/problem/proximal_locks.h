@@ -65,9 +65,9 @@ class ProximalLocks {
     return joints_[groups_[group].first_joint + joint].errors;
   }
 
-  /// Adds 1/64 of the compliance of a row times its whole impulse so far (the pair's velocity
-  /// jump, Q50) to its error, so that impulses of rows against each other do not grow.
-  void give(std::uint32_t group, std::uint32_t joint, std::size_t row, std::int64_t impulse);
+  /// Adds 1/64 of the compliance of each row of a joint times its whole impulse so far (the pair's
+  /// velocity jump, Q50) to its error, so that impulses of rows against each other do not grow.
+  void give(std::uint32_t group, std::uint32_t joint, std::span<const std::int64_t> impulses);
 
   /// Takes the errors away, as far as one solve does: finds the impulses of all rows.
   void solve(std::uint32_t group);

@@ -123,14 +123,17 @@ void LoopLocks::factor(const JointRun& run, JointGroup& group, bool ahead) {
 void LoopLocks::complete_errors(const JointRun& run, const JointGroup& group, bool positions) {
   for (std::uint32_t k = 0; k < group.count; ++k) {
     LinkedJoint& joint = system_.joints[system_.joints_of(group)[k]];
+    RowImpulses totals;
     for (std::size_t r = 0; r < joint.rows.count; ++r) {
+      totals[r] = 0;
       if (is_left_out(joint, r)) continue;
       const JointRow& row = joint.rows.rows[r];
       LKS_ASSERT(row.kind != RowKind::limit);
       if (row.kind == RowKind::drive)
         errors(group, k)[r] = row_speed(run, joint, row) - bounded(row.speed, k_row_bound);
-      loops_->give(group.loops, k, r, total_impulse(joint, row, positions));
+      totals[r] = total_impulse(joint, row, positions);
     }
+    loops_->give(group.loops, k, totals);
   }
 }
 

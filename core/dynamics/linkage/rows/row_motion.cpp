@@ -30,7 +30,8 @@ inline std::uint64_t excess(std::int64_t x) {
 }
 
 // Adds a change to a body's velocity, within ±k_row_bound.
-inline void add_velocity(BodyVelocity& body, const RawVec3& velocity, const RawVec3& spin) {
+[[gnu::always_inline]] inline void add_velocity(BodyVelocity& body, const RawVec3& velocity,
+                                                const RawVec3& spin) {
   const auto sum = [](std::int64_t x, std::int64_t by) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(x) +
                                      static_cast<std::uint64_t>(by));

@@ -37,14 +37,16 @@ bool take(std::int64_t& x, std::int64_t part) {
   return x == left && magnitude(part) < k_product_bound;
 }
 
-// Points have three rows, contacts four: numbers that are known while compiling.
+// Points have three rows, contacts four, hinges five: numbers that are known while compiling.
 using Three = std::integral_constant<std::uint32_t, 3>;
 using Four = std::integral_constant<std::uint32_t, 4>;
+using Five = std::integral_constant<std::uint32_t, 5>;
 
 template <class Task>
 void with_size(std::uint32_t n, const Task& task) {
   if (n == 3) return task(Three{});
   if (n == 4) return task(Four{});
+  if (n == 5) return task(Five{});
   task(n);
 }
 
@@ -263,7 +265,7 @@ void JointFactor::update(std::uint32_t first, const Column& column) {
       else if (alike && n == 4)
         subtract(Four{}, Four{}, Four{});
       else
-        subtract(target.count, column_i.count, n);
+        with_size(n, [&](auto terms) { subtract(target.count, column_i.count, terms); });
     }
   }
 }
