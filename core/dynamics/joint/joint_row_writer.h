@@ -44,7 +44,7 @@ class RowWriter {
   /// Springs about several axes that have rows together, and none by themselves.
   void act_together(SpringTurn springs) { springs_ = springs; }
   [[nodiscard]] bool acts_together(std::size_t axis) const {
-    return lockstone::acts_together(place_.joint, springs_, axis);
+    return springs_ != SpringTurn::apart && lockstone::acts_together(place_.joint, springs_, axis);
   }
 
   [[nodiscard]] bool is_far(std::size_t axis) const { return (place_.far >> axis & 1) != 0; }

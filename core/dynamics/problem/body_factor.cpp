@@ -357,14 +357,14 @@ bool BodyFactor::solve_up(const Plan& plan, Keep keep) {
 
 // Scales the words of a body by 2^-scale. Words that fit afterwards need no clamp.
 void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
-  const int grow = std::max(-scale, 0), shrink = std::max(scale, 0);
-  LKS_ASSERT(grow < 62 && shrink <= 62);
+  LKS_ASSERT(scale > -62 && scale <= 62);
+  const std::int64_t bound = FittingWords::k_bound >> std::max(-scale, 0);
   std::int64_t bits = 0;
   for (std::size_t i = 0; i < k_side; ++i)
-    bits |= words[i] ^ (words[i] >> 63);
-  if (bits < k_most_word >> grow) {
+    bits |= lanes::scalar::add(words[i], bound);
+  if (static_cast<std::uint64_t>(bits) < static_cast<std::uint64_t>(2 * bound)) {
     for (std::int64_t& word : std::span(words).first<k_side>())
-      word = shrink == 0 ? word * (std::int64_t{1} << grow) : raw::round_shift(word, shrink);
+      word = scale <= 0 ? word * (std::int64_t{1} << -scale) : raw::round_shift(word, scale);
     return;
   }
   std::int64_t excess = 0;

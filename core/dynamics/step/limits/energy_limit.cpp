@@ -23,10 +23,10 @@ constexpr std::int64_t k_least_gain = (std::int64_t{1} << 32) / 6400;
 constexpr int k_moving_gain_shift = 4;
 constexpr std::int64_t k_moving_gain = std::int64_t{1} << 30;
 
-// Twice the kinetic energy for each mass.
-std::int64_t row_energy(const EnergyLimit::Bodies& all, std::uint32_t i) {
-  const Vec3<Velocity> velocity = velocity_of_row(all.bodies.rows()[i].velocity),
-                       spin = velocity_of_row(all.bodies.rows()[i].spin);
+// Twice the kinetic energy for each mass, of a body with its present velocity.
+std::int64_t row_energy(const EnergyLimit::Bodies& all, std::uint32_t i,
+                        const Vec3<Velocity>& velocity) {
+  const Vec3<Velocity> spin = velocity_of_row(all.bodies.rows()[i].spin);
   const Vec3<Velocity> surface = surface_velocity(all.bodies.constants()[i].inverse_inertia, spin);
   if (!all.bodies.constants()[i].is_heavier)
     return energy_product(velocity, velocity, spin, surface);
@@ -97,7 +97,8 @@ void EnergyLimit::note(const Bodies& all, std::uint32_t watched) {
   island.start = island.knows_now ? island.now : 0;
   for (WatchedBody& body : bodies_of(island)) {
     body.start = velocity_of_row(all.bodies.rows()[body.number].velocity);
-    if (!island.knows_now) add_energy(island.start, row_energy(all, body.number), body.mass);
+    if (!island.knows_now)
+      add_energy(island.start, row_energy(all, body.number, body.start), body.mass);
   }
 }
 
@@ -111,7 +112,7 @@ void EnergyLimit::sum(const Bodies& all, Island& island) {
     for (int axis = 0; axis < 3; ++axis)
       work.add(all.bodies.constants()[body.number].gain[static_cast<std::size_t>(axis)],
                body.start[axis].raw + end[axis].raw);
-    const std::int64_t own = row_energy(all, body.number);
+    const std::int64_t own = row_energy(all, body.number, end);
     const std::int64_t change = raw::saturating_add(own, -work.rounded(32));
     add_energy(island.now, own, body.mass);
     add_energy(island.change, change, body.mass);
