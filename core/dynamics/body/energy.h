@@ -48,7 +48,10 @@ inline constexpr int k_share_bits = 30;
 
 /// Adds the energy of a body for each mass, times its mass, within 64 bits.
 inline void add_energy(std::int64_t& sum, std::int64_t each, BlockFloat mass) {
-  sum = raw::saturating_add(sum, scale_saturating(each, mass, 0));
+  const int right = -mass.exponent;
+  const bool fits = magnitude(each) >> 60 == 0 && right >= 30 && right <= 60;  // times less than 2
+  sum = raw::saturating_add(
+      sum, fits ? product_rounded(each, mass.mantissa, right) : scale_saturating(each, mass, 0));
 }
 
 /// The energy s²·square + s·linear that a share s (Q30) of a change of velocity adds.

@@ -15,8 +15,8 @@ namespace lockstone {
 
 inline constexpr std::int64_t k_one = std::int64_t{1} << 30;
 
-/// Velocities of a substep stay within 2048 m/s, Q50.
-inline constexpr std::int64_t k_row_bound = std::int64_t{1} << 61;
+/// Velocities of a substep stay within 2048 m/s, Q50: sums of products do.
+inline constexpr std::int64_t k_row_bound = k_product_bound;
 
 /// Openings are closed no faster than this, m/s, Q50; limits are pushed back at half of it.
 inline constexpr std::int64_t k_close_speed = std::int64_t{8} << 50;
@@ -43,7 +43,8 @@ inline constexpr std::int64_t k_close_way = std::int64_t{8} << 32;
   return size(v.x) + size(v.y) + size(v.z);
 }
 
-/// The speed that closes an error (m, Q32) in a substep, or in 2^shift of them: m/s, Q50.
+/// The speed that closes an error (m, Q32) in a substep, or in 2^shift of them: m/s, Q50, within
+/// ±k_row_bound.
 [[nodiscard]] constexpr std::int64_t closing_speed(std::int64_t error, std::int64_t rate,
                                                    int shift = 0) {
   LKS_ASSERT(rate > 0 && shift >= 0);

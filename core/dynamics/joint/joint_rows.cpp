@@ -273,25 +273,6 @@ RawVec3 point_gap(const JointPlace& place) {
   return {part(gap.x), part(gap.y), part(gap.z)};
 }
 
-RawVec3 response_of(const InverseInertia& m, const RawVec3& j) {
-  LKS_ASSERT(m.xx >= 0 && m.yy >= 0 && m.zz >= 0 && m.exponent >= 0);
-  // With |entries| ≤ 2^30 and levers below 2^31 the sums stay below 3·2^61.
-  if (((magnitude(j[0]) | magnitude(j[1]) | magnitude(j[2])) >> 31) == 0) {
-    const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
-      return raw::round_shift(a * j[0] + b * j[1] + c * j[2], 30 - m.exponent);
-    };
-    return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
-  }
-  const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
-    ProductSum sum;
-    sum.add(a, j[0]);
-    sum.add(b, j[1]);
-    sum.add(c, j[2]);
-    return sum.rounded(30 - m.exponent);
-  };
-  return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
-}
-
 LockErrors lock_errors(const JointPlace& place) {
   LockErrors errors;
   RowWriter writer(place, RowParts::locks, nullptr, &errors);

@@ -109,7 +109,4 @@ struct LockErrors {
 /// Whether it holds a point and nothing else has rows, without limits that are far.
 [[nodiscard]] bool holds_a_point(const JointRecord& joint, std::uint8_t far);
 
-/// M·j for a Jacobian.
-[[nodiscard]] RawVec3 response_of(const InverseInertia& inertia, const RawVec3& angular);
-
 }  // namespace lockstone

@@ -66,7 +66,7 @@ std::int64_t wrapped_product(std::int64_t a, std::int64_t b) {
 // Times 2^bits: the scale of the rows leaves no entry above 1.
 void grow(lanes::BodyBlock& block, int bits) {
   for (lanes::BlockWord& word : block.words)
-    for (std::int64_t& sum : word)
+    for (std::int64_t& sum : std::span(word).first<lanes::k_body_words>())
       sum = bits >= 0 ? lanes::scalar::shift_left(sum, bits) : raw::round_shift(sum, -bits);
 }
 

@@ -72,9 +72,9 @@ class ProximalLocks {
   /// Takes the errors away, as far as one solve does: finds the impulses of all rows.
   void solve(std::uint32_t group);
 
-  /// The pair's velocity jump, Q50.
-  [[nodiscard]] std::int64_t impulse(std::uint32_t group, std::uint32_t joint, std::size_t row) {
-    return joints_[groups_[group].first_joint + joint].impulses[row];
+  /// Of the rows of a joint: the pair's velocity jumps, Q50.
+  [[nodiscard]] std::span<const std::int64_t> impulses(std::uint32_t group, std::uint32_t joint) {
+    return joints_[groups_[group].first_joint + joint].impulses;
   }
 
  private:

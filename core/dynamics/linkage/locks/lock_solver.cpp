@@ -125,7 +125,7 @@ std::int64_t LockSolver::set_position_errors(const JointGroup& group) {
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
       const std::int64_t error = joint.rows.rows[r].error - joint.left_open[r];
       widest = std::max(widest, std::abs(error));
-      errors[r] = bounded(closing_speed(error, group.rate), k_row_bound);
+      errors[r] = closing_speed(error, group.rate);
     }
   }
   return widest;

@@ -173,7 +173,7 @@ std::int64_t LoopLocks::motor_impulse(const JointGroup& group, std::uint32_t pla
   const std::uint8_t axis = joint.rows.rows[row].axis;
   const std::int64_t bound = joint.drives[axis].bound;
   const std::int64_t before = joint.driven[axis] + (positions ? 0 : joint.driven_later[axis]);
-  return bounded(before + loops_->impulse(group.loops, place, row), bound) - before;
+  return bounded(before + loops_->impulses(group.loops, place)[row], bound) - before;
 }
 
 // Motors that would have to push harder than they may push as hard as they may, and the other rows
@@ -187,7 +187,7 @@ bool LoopLocks::bound_motors(const JointRun& run, const JointGroup& group, bool 
     for (std::size_t r = joint.rows.locks; r < joint.rows.count; ++r) {
       if (is_left_out(joint, r)) continue;
       const std::int64_t impulse = motor_impulse(group, k, r, positions);
-      if (impulse == loops_->impulse(group.loops, k, r)) continue;
+      if (impulse == loops_->impulses(group.loops, k)[r]) continue;
       if (!holds) add_speeds(run, group, -1);
       holds = true;
       total_impulse(joint, joint.rows.rows[r], positions) += impulse;
@@ -202,12 +202,12 @@ bool LoopLocks::bound_motors(const JointRun& run, const JointGroup& group, bool 
 void LoopLocks::apply(const JointRun& run, const JointGroup& group, bool positions) {
   for (std::uint32_t k = 0; k < group.count; ++k) {
     LinkedJoint& joint = system_.joints[system_.joints_of(group)[k]];
+    const std::span<const std::int64_t> found = loops_->impulses(group.loops, k);
     RowImpulses impulses{};
     for (std::size_t r = 0; r < joint.rows.count; ++r) {
       if (is_left_out(joint, r)) continue;
       const JointRow& row = joint.rows.rows[r];
-      impulses[r] = row.kind == RowKind::drive ? motor_impulse(group, k, r, positions)
-                                               : loops_->impulse(group.loops, k, r);
+      impulses[r] = row.kind == RowKind::drive ? motor_impulse(group, k, r, positions) : found[r];
       std::int64_t& total = total_impulse(joint, row, positions);
       total = bounded(total + impulses[r], k_product_bound);
     }

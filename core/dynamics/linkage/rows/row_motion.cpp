@@ -139,7 +139,7 @@ std::int64_t row_speed(const JointRun& run, const LinkedJoint& joint, const Join
       sum.add(row.linear_b[i], b.velocity[i]);
     }
   }
-  const std::int64_t speed = bounded(sum.rounded(30), k_row_bound);
+  const std::int64_t speed = sum.rounded(30);
   if (row.kind != RowKind::lock || row.speed == 0) return speed;
   return bounded(speed - bounded(row.speed, k_row_bound), k_row_bound);
 }

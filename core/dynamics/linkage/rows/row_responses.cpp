@@ -22,6 +22,29 @@ InverseResponse inverse_response(std::int64_t response) {
   return {static_cast<std::int64_t>(mantissa), 60 + 64 - zeros - 30};
 }
 
+[[gnu::noinline, gnu::cold]] RawVec3 wide_response_of(const InverseInertia& m, const RawVec3& j) {
+  const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    ProductSum sum;
+    sum.add(a, j[0]);
+    sum.add(b, j[1]);
+    sum.add(c, j[2]);
+    return sum.rounded(30 - m.exponent);
+  };
+  return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
+}
+
+// M·j for a Jacobian.
+inline RawVec3 response_of(const InverseInertia& m, const RawVec3& j) {
+  LKS_ASSERT(m.xx >= 0 && m.yy >= 0 && m.zz >= 0 && m.exponent >= 0);
+  // With |entries| ≤ 2^30 and levers below 2^31 the sums stay below 3·2^61.
+  if (((magnitude(j[0]) | magnitude(j[1]) | magnitude(j[2])) >> 31) != 0) [[unlikely]]
+    return wide_response_of(m, j);
+  const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    return raw::round_shift(a * j[0] + b * j[1] + c * j[2], 30 - m.exponent);
+  };
+  return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
+}
+
 // Along an axis that is locked a body neither moves nor responds.
 void clear_locked_axes(const LinkedBody& body, RawVec3& linear) {
   if (!body.pushed || (body.record->locks & k_lock_moving) == 0) return;
