@@ -107,20 +107,10 @@ class JointSolver {
   /// Impulses back to a record, in the order of adding; not of those among the coloured balls.
   void store(std::size_t added, JointRecord& joint) const;
 
-  /// The number of the joint that was added so; k_in_balls of one that is left to the coloured
-  /// balls.
+  /// The joint that was added so, once planned: `joint` is k_in_balls of one that is left to the
+  /// coloured balls.
   static constexpr std::uint32_t k_in_balls = AddedJoint::k_in_balls;
-  [[nodiscard]] std::uint32_t number_of(std::size_t added) const {
-    return system_.added[added].joint;
-  }
-
-  /// Whether springs, motors or turning locks may give energy in it.
-  [[nodiscard]] bool is_driven(std::size_t added) const { return system_.added[added].is_driven; }
-
-  /// Whether its record has impulses that no ball joint has.
-  [[nodiscard]] bool has_other_impulses(std::size_t added) const {
-    return system_.added[added].has_other_impulses;
-  }
+  [[nodiscard]] const AddedJoint& added(std::size_t number) const { return system_.added[number]; }
 
   /// The clusters one by one, for islands that are solved whole.
   [[nodiscard]] WholeClusters& whole_clusters() { return whole_clusters_; }

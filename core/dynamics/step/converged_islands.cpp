@@ -68,7 +68,7 @@ void ConvergedIslands::list(const ContactList& contacts, const IslandBuilder& is
     LKS_ASSERT(contacts_.back().a != contacts_.back().b);
   });
   lists_.for_joints(island, [&](std::uint32_t link) {
-    joints_.push_back(joints.solver().island_joints().joint(joints.solver().number_of(link)));
+    joints_.push_back(joints.solver().island_joints().joint(joints.solver().added(link).joint));
   });
 }
 

@@ -23,6 +23,7 @@ InverseResponse inverse_response(std::int64_t response) {
 }
 
 [[gnu::noinline, gnu::cold]] RawVec3 wide_response_of(const InverseInertia& m, const RawVec3& j) {
+  LKS_ASSERT(m.exponent >= 0 && m.exponent < 30);
   const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
     ProductSum sum;
     sum.add(a, j[0]);

@@ -52,7 +52,7 @@ void TickJoints::gather_balls(const ContactScene& scene) {
       return {bodies_.row_of(ref), number != 0};
     };
     const ColouredBalls::End a = end(link.body_a), b = end(link.body_b);
-    balls_.add(i, scene.joints[link.joint], solver_->has_other_impulses(i), a, b);
+    balls_.add(i, scene.joints[link.joint], solver_->added(i).has_other_impulses, a, b);
   }
   balls_.lay_out();
 }

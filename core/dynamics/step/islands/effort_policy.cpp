@@ -123,8 +123,9 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
   for (std::uint32_t i = 0; i < scene.joint_links.size(); ++i) {
     const JointLink& link = scene.joint_links[i];
     IslandTally& tally = islands.tally(islands.of(scene, bodies, link));
-    if (joints.solver().number_of(i) == JointSolver::k_in_balls) tally.iterates_only = true;
-    const bool drives = joints.solver().is_driven(i);
+    const AddedJoint& added = joints.solver().added(i);
+    if (added.joint == JointSolver::k_in_balls) tally.iterates_only = true;
+    const bool drives = added.is_driven;
     const bool is_free =
         scene.bodies[link.body_a].is_dynamic() && scene.bodies[link.body_b].is_dynamic() && !drives;
     if (!is_free) tally.is_carried = true;
