@@ -96,7 +96,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                       joints_.solver().prepare(joints_.run(), first, end);
                     });
   impacts_.find(scene);
-  if (constraints_.has_restitution() || joints_.solver().has_own())
+  if (constraints_.has_restitution() || !joints_.solver().empty())
     islands_.find_energy_sources(scene, bodies_, contacts_);
   energy_limit_.begin(energy_bodies());
   if (converged_ != nullptr) {

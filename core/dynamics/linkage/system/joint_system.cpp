@@ -54,8 +54,6 @@ std::span<JointRow> JointSystem::take_rows(std::size_t count) {
 }
 
 bool JointSystem::has_factor(const JointGroup& group) const {
-  LKS_ASSERT(group.is_factored || !group.is_fresh);
-  if (group.is_fresh) return true;
   return group.is_factored && std::ranges::all_of(joints_of(group), [this](std::uint32_t index) {
            return joints[index].factored == list_rows(joints[index].rows);
          });

@@ -45,7 +45,7 @@ void EnergyLimit::reserve(std::size_t body_capacity) {
 void EnergyLimit::begin(const Bodies& all) {
   islands_.clear();
   count_ = 0;
-  if (!all.joints.has_own()) return;
+  if (all.joints.empty()) return;
   find_islands(all);
   list_bodies(all);
 }
