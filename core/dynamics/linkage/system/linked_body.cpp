@@ -76,8 +76,8 @@ Position step_of(const LinkedBody& body, std::int64_t velocity) {
   return Position::from_raw(raw::round_shift(body.rate.quotient(velocity), 18));
 }
 
-Quat turned(const LinkedBody& body, const Spin& spin, const InverseInertia& inertia,
-            const RoundDivisor& rate) {
+Quat orientation_after(const LinkedBody& body, const Spin& spin, const InverseInertia& inertia,
+                       const RoundDivisor& rate) {
   const std::array<std::int64_t, 3> w = surface_velocity(inertia, spin);
   const auto angle = [&](std::int64_t x) {
     return RotationComponent::from_raw(raw::scale_binary(rate.quotient(x), -body.scale));
@@ -86,7 +86,7 @@ Quat turned(const LinkedBody& body, const Spin& spin, const InverseInertia& iner
 }
 
 InverseInertia half_on(const LinkedBody& body, const Spin& spin) {
-  const Quat half = turned(body, spin, body.inverse_inertia, body.rate.doubled());
+  const Quat half = orientation_after(body, spin, body.inverse_inertia, body.rate.doubled());
   return inverse_inertia_of(body, to_matrix(half));
 }
 
@@ -97,7 +97,7 @@ void place_inertia(const JointRun& run, LinkedBody& body) {
   run.inertias[body.solver] = body_inertia(body.inverse_inertia);
 }
 
-// As `move_body`, of a body without notes: nobody has looked where it will be.
+// As `move_body`, of a body that only coloured balls hold: nobody has looked where it will be.
 void move_by_balls(const JointRun& run, LinkedBody& body) {
   LKS_ASSERT(body.pushed && body.in_balls && !body.has_looked && !body.centred);
   const lanes::BodyVelocity& row = run.rows[body.solver];
@@ -107,7 +107,7 @@ void move_by_balls(const JointRun& run, LinkedBody& body) {
   }
   if (turns(body, row)) {
     const Spin spin = moving_spin(row);
-    body.pose.orientation = turned(
+    body.pose.orientation = orientation_after(
         body, spin, body.is_spherical ? body.inverse_inertia : half_on(body, spin), body.rate);
     body.pose.rotation = to_matrix(body.pose.orientation);
   }
@@ -180,9 +180,9 @@ JointPose pose_after(const JointRun& run, LinkedBody& body) {
   const Spin spin = moving_spin(row);
   if (body.pushed && !body.is_spherical) {
     if (!body.has_looked) body.inertia_ahead = half_on(body, spin);
-    after.orientation = turned(body, spin, body.inertia_ahead, body.rate);
+    after.orientation = orientation_after(body, spin, body.inertia_ahead, body.rate);
   } else {
-    after.orientation = turned(body, spin, body.inverse_inertia, body.rate);
+    after.orientation = orientation_after(body, spin, body.inverse_inertia, body.rate);
   }
   after.rotation = to_matrix(after.orientation);
   return after;
