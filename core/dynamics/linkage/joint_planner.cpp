@@ -155,9 +155,9 @@ void JointPlanner::plan_group(JointGroup group) {
   if (!has_few_loops && !loops_.may_fit(group)) return plan_singles(group);
   std::reverse(system_.order.begin() + group.first, system_.order.end());
   const std::span<const std::uint32_t> joints = system_.joints_of(group);
-  LKS_ASSERT(joints.size() == group.count);
+  LKS_ASSERT(joints.size() == group.count && group.count <= AddedJoint::k_most_place);
   for (std::uint32_t k = 0; k < group.count; ++k)
-    system_.added[joints[k]].place = k;
+    system_.added[joints[k]].place = k & AddedJoint::k_most_place;
   const bool needs_loops = has_loops(group) || has_motors(group) || is_pressed(group);
   if (needs_loops && loops_.plan(group)) return system_.groups.push_back(group);
   if (!has_few_loops || !trees_.plan(group)) return plan_singles(group);

@@ -24,17 +24,20 @@ namespace lockstone {
 struct AddedJoint {
   static constexpr std::uint32_t k_in_balls = 0xffffffff;
 
+  static constexpr std::uint32_t k_most_place = (1U << 28) - 1;
+
   const JointRecord* record = nullptr;
   std::uint32_t a = 0, b = 0;  // in JointSystem::bodies
-  std::uint32_t place = 0;     // within its group, in the order of elimination
   std::uint32_t joint = 0;     // in JointSystem::joints; k_in_balls if the coloured balls have it
-  std::int64_t last_pull = 0;  // how hard it pulled as the last tick ended, Q30
 
-  // All else that planning asks of the record, which is large.
-  bool fits_balls = false;  // the coloured balls can have it
-  bool has_motor = false;
-  bool is_driven = false;           // `lockstone::is_driven`
-  bool has_other_impulses = false;  // than those along the first three axes
+  // With bits for all else that planning asks of the record, which is large.
+  std::uint32_t place : 28 = 0;  // within its group, in the order of elimination
+  bool fits_balls : 1 = false;   // the coloured balls can have it
+  bool has_motor : 1 = false;
+  bool is_driven : 1 = false;           // `lockstone::is_driven`
+  bool has_other_impulses : 1 = false;  // than those along the first three axes
+
+  std::int64_t last_pull = 0;  // how hard it pulled as the last tick ended, Q30
 };
 
 struct JointGroup {
