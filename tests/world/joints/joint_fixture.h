@@ -22,6 +22,14 @@ inline JointHandle join(World& world, const JointDef& def) {
   return world.create_joint(def).value();
 }
 
+/// A ball joint midway between two bodies; `half_way`: from the first one's centre.
+inline void hold(World& world, BodyHandle one, BodyHandle other, const Vec3<Length>& half_way) {
+  JointDef joint = JointDef::of(JointKind::ball, one, other);
+  joint.frame_a.position = half_way;
+  joint.frame_b.position = -half_way;
+  join(world, joint);
+}
+
 inline double gap(const JointView& joint) {
   return std::hypot(number(joint.offset.x.raw, 20), number(joint.offset.y.raw, 20),
                     number(joint.offset.z.raw, 20));

@@ -180,15 +180,9 @@ World make_net(int side, const Shape& shape) {
     def.filter.mask = 0;
     if (i == 0 || i == side - 1) def.motion = MotionType::static_body;
     bodies.push_back(test::add(world, def));
-    const auto hold = [&](int other, Length x, Length y) {
-      JointDef joint =
-          JointDef::of(JointKind::ball, bodies[static_cast<std::size_t>(other)], bodies.back());
-      joint.frame_a.position = {x, y, {}};
-      joint.frame_b.position = {-x, -y, {}};
-      join(world, joint);
-    };
-    if (i % side > 0) hold(i - 1, 0.5_m, {});
-    if (i >= side) hold(i - side, {}, -0.5_m);
+    const auto before = [&](int steps) { return bodies[static_cast<std::size_t>(i - steps)]; };
+    if (i % side > 0) test::hold(world, before(1), bodies.back(), {0.5_m, {}, {}});
+    if (i >= side) test::hold(world, before(side), bodies.back(), {{}, -0.5_m, {}});
   }
   return world;
 }

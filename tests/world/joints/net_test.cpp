@@ -1,7 +1,6 @@
 // Nets of ball joints. Up to 256 bodies they are loops with a factor; larger ones, or those of a
 // world without one, are left to the coloured balls.
 
-#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,7 +12,7 @@ namespace lockstone {
 namespace {
 
 using namespace literals;
-using test::gap, test::join, test::number;
+using test::hold, test::join;
 
 World make_room(std::uint32_t converged_contacts) {
   WorldDef def{.body_capacity = 1024, .pair_capacity = 8192, .contact_capacity = 4096};
@@ -32,34 +31,32 @@ std::vector<BodyHandle> add_net(World& world, int side, const Shape& shape, test
     for (int axis = 0; axis < 3; ++axis)
       def.velocity[axis] = Velocity::from_ratio(random.between(-100, 100), 100);
     bodies.push_back(test::add(world, def));
-    const auto hold = [&](int other, Length x, Length z) {
-      JointDef joint =
-          JointDef::of(JointKind::ball, bodies[static_cast<std::size_t>(other)], bodies.back());
-      joint.frame_a.position = {x, {}, z};
-      joint.frame_b.position = {-x, {}, -z};
-      join(world, joint);
-    };
-    if (i % side > 0) hold(i - 1, 0.5_m, {});
-    if (i >= side) hold(i - side, {}, 0.5_m);
+    const auto before = [&](int steps) { return bodies[static_cast<std::size_t>(i - steps)]; };
+    if (i % side > 0) hold(world, before(1), bodies.back(), {0.5_m, {}, {}});
+    if (i >= side) hold(world, before(side), bodies.back(), {{}, {}, 0.5_m});
   }
   return bodies;
 }
 
-double mean_height(const World& world, const std::vector<BodyHandle>& bodies) {
+template <class Of>
+double mean(const std::vector<BodyHandle>& bodies, Of of) {
   double sum = 0;
   for (const BodyHandle body : bodies)
-    sum += test::metres(world.body(body).centre_of_mass.y);
+    sum += of(body);
   return sum / static_cast<double>(bodies.size());
+}
+
+double mean_height(const World& world, const std::vector<BodyHandle>& bodies) {
+  return mean(bodies,
+              [&](BodyHandle body) { return test::metres(world.body(body).centre_of_mass.y); });
 }
 
 double mean_speed_down(const World& world, const std::vector<BodyHandle>& bodies) {
-  double sum = 0;
-  for (const BodyHandle body : bodies)
-    sum -= test::metres_per_second(world.velocity(body).y);
-  return sum / static_cast<double>(bodies.size());
+  return -mean(bodies,
+               [&](BodyHandle body) { return test::metres_per_second(world.velocity(body).y); });
 }
 
-// The state of one body, to compare two worlds.
+// Whether bodies move alike in two worlds.
 void expect_alike(const World& one, const World& other, const std::vector<BodyHandle>& bodies) {
   for (const BodyHandle body : bodies) {
     ASSERT_EQ(one.body(body).centre_of_mass, other.body(body).centre_of_mass);
