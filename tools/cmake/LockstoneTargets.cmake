@@ -49,8 +49,9 @@ endfunction()
 
 # lockstone_compile_at(TARGET LEVEL source…): compiles files of core with the option LEVEL, if it is not empty.
 # A file that was given a level before keeps it. CMake does not unite files with options of their own, so
-# where LOCKSTONE_UNITY_BUILD is SESSION this function does: up to sixteen files of a room with the same
-# level. It leaves the rooms of which programs link single files.
+# where LOCKSTONE_UNITY_BUILD is SESSION this function does: up to sixteen files with the same level, of
+# the room collision or dynamics or of one folder of world (vehicles, queries, the rollback history), which
+# programs link as a whole or not at all. It leaves those of which programs link single files.
 function(lockstone_compile_at target level)
   set(sources ${ARGN})
   foreach(source IN LISTS sources)
@@ -63,9 +64,19 @@ function(lockstone_compile_at target level)
   if(NOT LOCKSTONE_UNITY_BUILD STREQUAL "SESSION")
     return()
   endif()
-  foreach(room IN ITEMS collision dynamics world)
+  set(folders ${sources})
+  list(FILTER folders INCLUDE REGEX "^world/.*/")
+  list(FILTER folders EXCLUDE REGEX "^world/(commands|state|phases)/[^/]*$")
+  list(TRANSFORM folders REPLACE "/[^/]*$" "")
+  list(REMOVE_DUPLICATES folders)
+  foreach(folder IN ITEMS collision dynamics LISTS folders)
     set(rest ${sources})
-    list(FILTER rest INCLUDE REGEX "^${room}/")
+    if(folder MATCHES "^world")
+      list(FILTER rest INCLUDE REGEX "^${folder}/[^/]*$")
+    else()
+      list(FILTER rest INCLUDE REGEX "^${folder}/")
+    endif()
+    string(MAKE_C_IDENTIFIER ${folder} name)
     set(batch 0)
     while(rest)
       list(SUBLIST rest 0 16 united)
@@ -74,7 +85,7 @@ function(lockstone_compile_at target level)
       foreach(source IN LISTS united)
         string(APPEND includes "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${source}\"\n")
       endforeach()
-      set(unit ${CMAKE_CURRENT_BINARY_DIR}/united/${room}${level}_${batch}.cpp)
+      set(unit ${CMAKE_CURRENT_BINARY_DIR}/united/${name}${level}_${batch}.cpp)
       file(CONFIGURE OUTPUT ${unit} CONTENT "${includes}" @ONLY)
       target_sources(${target} PRIVATE ${unit})
       set_source_files_properties(${unit} PROPERTIES COMPILE_OPTIONS "${level}")
