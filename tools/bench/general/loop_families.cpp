@@ -114,11 +114,8 @@ void fill_weak_link(SceneMaker& m) {
   m.judge(Judge::gap, 0.01, 8);
 }
 
-// Plates joined at the middle of their edges, hung by two corners.
-void fill_net(SceneMaker& m) {
-  const int n = m.count(2, 5);
-  const double pitch = m.random.between(0.3, 0.8);
-  const Link link = ball_or_hinge(m);
+// n × n plates joined at the middle of their edges, hung by two corners.
+void hang_net(SceneMaker& m, int n, double pitch, Link link) {
   std::vector<int> plates;
   for (int i = 0; i < n * n; ++i)
     plates.push_back(
@@ -135,6 +132,17 @@ void fill_net(SceneMaker& m) {
   m.join(Link::ball, m.anchor({far, 0, -edge}), plate(n - 1, 0), {far, 0, -edge});
   hang(m, n * pitch * 2);
   m.judge(Judge::gap, 0.01, 8);
+}
+
+void fill_net(SceneMaker& m) {
+  const int n = m.count(2, 5);
+  const double pitch = m.random.between(0.3, 0.8);
+  hang_net(m, n, pitch, ball_or_hinge(m));
+}
+
+void fill_wide_net(SceneMaker& m) {
+  const int n = m.count(6, 24);
+  hang_net(m, n, m.random.between(0.3, 0.8), Link::ball);
 }
 
 // An open chain with a heavy end.
@@ -228,6 +236,7 @@ void add_loop_families(std::vector<Family>& all) {
        {"ring", "closed ring of 3-24 boxes, parallel hinges or balls, hung", fill_ring},
        {"weak-link", "1-3 light links hold a ring of 3-8 boxes, up to 2000 : 1", fill_weak_link},
        {"net", "net of 2 x 2 to 5 x 5 plates hung by two corners", fill_net},
+       {"wide-net", "such a net of 6 x 6 to 24 x 24 plates, balls between them", fill_wide_net},
        {"chain", "open chain of 2-60 links, end up to 500 : 1", fill_chain},
        {"pendulum", "1-4 rods that swing for 20 s", fill_pendulum},
        {"four-bar", "a linkage that swings through toggles", fill_four_bar},
