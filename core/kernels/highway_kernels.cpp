@@ -32,7 +32,7 @@ namespace {
                                                  target::solve_manifolds, target::relax_manifolds, \
                                                  target::bounce_manifolds};                        \
   constexpr BallKernels k_balls_##target{target::begin_balls, target::solve_ball_positions,        \
-                                         target::update_balls, target::relax_balls};               \
+                                         target::update_balls};                                    \
   constexpr BoxKernels k_boxes_##target{target::meet_boxes, target::place_points};
 
 #define LKS_ISLAND_KERNELS(target)                                                       \

@@ -125,7 +125,6 @@ void run(const BallKernels& kernels, Scene& scene) {
   kernels.solve_positions(scene.bodies.data(), blocks, count);
   kernels.update(scene.bodies.data(), scene.warm.data(), blocks, count, scene.later.data(),
                  inertias, k_rate);
-  kernels.relax(scene.bodies.data(), blocks, count);
 }
 
 std::string compare(const Scene& start) {

@@ -155,12 +155,6 @@ void ColouredBalls::solve_positions(const ColouredBallsRun& run, std::size_t col
   kernels_of(color).solve_positions(run.rows, &blocks_[ranges_[color].first + first], end - first);
 }
 
-void ColouredBalls::relax(const ColouredBallsRun& run, std::size_t color, std::size_t first,
-                          std::size_t end) {
-  LKS_ASSERT(first <= end && end <= ranges_[color].count);
-  kernels_of(color).relax(run.rows, &blocks_[ranges_[color].first + first], end - first);
-}
-
 void ColouredBalls::update(const ColouredBallsRun& run, std::size_t color, std::size_t first,
                            std::size_t end) {
   LKS_ASSERT(first <= end && end <= ranges_[color].count);

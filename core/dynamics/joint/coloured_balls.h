@@ -70,7 +70,6 @@ class ColouredBalls {
             std::size_t first, std::size_t end);
   void solve_positions(const ColouredBallsRun& run, std::size_t color, std::size_t first,
                        std::size_t end);
-  void relax(const ColouredBallsRun& run, std::size_t color, std::size_t first, std::size_t end);
   /// After bodies moved; relaxes as well.
   void update(const ColouredBallsRun& run, std::size_t color, std::size_t first, std::size_t end);
 

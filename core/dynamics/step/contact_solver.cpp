@@ -240,8 +240,6 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return joints.relax(joints_.run(), first, end);
     case StageKind::update_balls:
       return joints_.balls().update(joints_.balls_run(), stage.color, first, end);
-    case StageKind::relax_balls:
-      return joints_.balls().relax(joints_.balls_run(), stage.color, first, end);
     case StageKind::impacts:
       return impacts_.run(bodies_.rows());
     case StageKind::relax:

@@ -13,12 +13,13 @@ constexpr std::uint32_t k_joined_grain = 8;
 constexpr std::uint32_t k_block_grain = 4;
 constexpr std::uint32_t k_one_grain = 1;
 
-// Coloured ball joints converge slowly: iterations before positions move, and after.
-constexpr int k_ball_passes = 2;
+// Coloured ball joints converge slowly: iterations before positions move, which decide how far a
+// net opens. One follows afterwards.
+constexpr int k_ball_passes = 4;
 
 // Loops of a substep: eighteen of bodies, joints, islands and energies; the colours of contacts
-// twice, of coloured ball joints four times.
-constexpr std::size_t k_most_substep_loops = 18 + 6 * (k_graph_colors + 1);
+// twice, of coloured ball joints once an iteration.
+constexpr std::size_t k_most_substep_loops = 18 + (2 + k_ball_passes + 1) * (k_graph_colors + 1);
 
 }  // namespace
 
@@ -76,8 +77,6 @@ void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   add({StageKind::move_joined}, work.joined, k_joined_grain);
   add({StageKind::relax_joints}, work.clusters, k_one_grain);
   add_balls(StageKind::update_balls, work);
-  for (int i = 1; i < k_ball_passes; ++i)
-    add_balls(StageKind::relax_balls, work);
   add_serial(StageKind::impacts, work.has_impacts);
   if (work.relaxes) add_contacts(StageKind::relax, work, substep);
   add({StageKind::relax_islands}, work.converged, k_one_grain);

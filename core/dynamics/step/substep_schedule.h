@@ -34,7 +34,6 @@ enum class StageKind : std::uint8_t {
   move_joined,
   relax_joints,
   update_balls,
-  relax_balls,
   impacts,
   relax,
   relax_islands,

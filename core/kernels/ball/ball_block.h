@@ -80,12 +80,10 @@ struct BallKernels {
   /// Computes the rows again after bodies have moved. Takes the position impulses back, and keeps
   /// seven eighths of the impulses as the warm start of the next substep. `before` gains the
   /// velocities that the old impulses gave along the old arms, less those that the kept ones give
-  /// along the new arms: a substep starts with twice the velocities less `before`. Then as `relax`.
+  /// along the new arms: a substep starts with twice the velocities less `before`. Then comes an
+  /// iteration that keeps openings as they are.
   void (*update)(BodyVelocity* bodies, BodyVelocity* before, BallBlock* blocks, std::size_t count,
                  const BodyPlace* places, const BodyInertia* inertias, std::int32_t substep_rate);
-
-  /// An iteration that keeps openings as they are.
-  void (*relax)(BodyVelocity* bodies, BallBlock* blocks, std::size_t count);
 };
 
 /// Those of the target in force, or of narrower vectors that hold this many balls at once.

@@ -342,22 +342,6 @@ HWY_ATTR inline void solve_ball_positions(BodyVelocity* bodies, BallBlock* block
   }
 }
 
-HWY_ATTR inline void relax_balls(BodyVelocity* bodies, BallBlock* blocks, std::size_t count) {
-  std::int64_t* words = bodies->velocity.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      BallPair pair{};
-      pair.load_from(words, blocks[i], lane);
-      if (are_plain(blocks[i], lane)) {
-        relax_ball_lanes<true>(blocks[i], lane, pair);
-      } else {
-        relax_ball_lanes<false>(blocks[i], lane, pair);
-      }
-      pair.store_to(words, blocks[i], lane);
-    }
-  }
-}
-
 /// Keeps seven eighths of the impulses, along the new arms: `before` gains the velocities that the
 /// next substep must not repeat.
 HWY_INLINE HWY_ATTR void renew_impulses(BallBlock& block, std::size_t lane, const Vector& old,

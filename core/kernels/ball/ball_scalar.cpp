@@ -4,8 +4,7 @@
 
 namespace lockstone::lanes {
 
-constexpr BallKernels k_scalar_balls{N_SCALAR_TWIN::begin_balls,
-                                     N_SCALAR_TWIN::solve_ball_positions,
-                                     N_SCALAR_TWIN::update_balls, N_SCALAR_TWIN::relax_balls};
+constexpr BallKernels k_scalar_balls{
+    N_SCALAR_TWIN::begin_balls, N_SCALAR_TWIN::solve_ball_positions, N_SCALAR_TWIN::update_balls};
 
 }  // namespace lockstone::lanes
