@@ -99,9 +99,9 @@ struct IslandTally {
   [[nodiscard]] bool is_stack() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_overloaded() const { return overloaded.get() <= k_most_overloaded; }
   /// Contacts are overloaded, many with joints, and a good part of all are new and have no impulses
-  /// yet.
+  /// yet. Phases that begin without would let it sink before they converge.
   [[nodiscard]] bool needs_initial_warm_start() const {
-    if (is_converged || fresh < contacts / 4) return false;
+    if (fresh < contacts / 4) return false;
     const bool has_no_joints = joints == 0 && bodies != 0;  // nobody counts where none converges
     if (!has_no_joints) return !few_are_overloaded() && fresh > k_most_overloaded;
     return overloaded.get() > 1 && fresh > 1;

@@ -124,7 +124,7 @@ void InitialWarmStart::gather(const SupportGraph& order, const ContactRun& run, 
     Support& support = supports.emplace_back();
     support.contact = {link};
     support.link = number;
-    support.is_new = link.is_new;
+    support.takes_mean = link.takes_mean;
     support.is_b = link.b == body;
     fill(run, support);
   });
@@ -222,7 +222,7 @@ void InitialWarmStart::propagate(const ContactRun& run, const Support& support, 
       add_scaled(point.angular_b, part_b, false, to_b.spin);
     }
   }
-  if (!support.is_new || contact.count == 0) return;
+  if (!support.takes_mean || contact.count == 0) return;
   const std::int64_t mean = raw::round_divide(sum, contact.count);
   LKS_ASSERT(mean >= 0 && mean <= lanes::k_most_impulse);
   block.mean_part[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * mean;

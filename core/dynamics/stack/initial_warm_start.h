@@ -47,7 +47,7 @@ class InitialWarmStart {
   struct Support {
     ContactRows contact;
     std::uint32_t link = 0;
-    bool is_new = false;
+    bool takes_mean = false;
     bool is_b = false;  // the body that rests
     std::int64_t share = 0;
     std::array<std::int64_t, lanes::k_block_points> own{};      // response of the body, Q30

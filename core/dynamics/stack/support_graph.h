@@ -19,7 +19,7 @@ inline constexpr std::size_t k_most_supports = 32;
 /// A contact that touches.
 struct SupportLink : ContactPair {
   std::uint32_t record = 0;
-  bool is_new = false;
+  bool takes_mean = false;    // it is new, and iterated: its mean impulse is not known yet
   bool is_on_ground = false;  // one of its surfaces never moves, and neither is driven
 };
 

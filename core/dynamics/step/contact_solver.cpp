@@ -99,6 +99,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   if (constraints_.has_restitution() || !joints_.solver().empty())
     islands_.find_energy_sources(scene, bodies_, contacts_);
   energy_limit_.begin(energy_bodies());
+  warm_start_.find(scene, constraints_.run(), parallel);
   if (converged_ != nullptr) {
     const ConvergedIslands::Tick tick{scene, bodies_, contacts_, islands_, constraints_.layout()};
     parallel.for_each({converged_->islands.count(), 1},
@@ -107,7 +108,6 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                       });
     converged_->whole.plan();
   }
-  warm_start_.find(scene, constraints_.run(), parallel);
   totals_.begin(
       scene.watched, contacts_, constraints_,
       converged_ == nullptr ? std::span<const ProximalContact>() : converged_->islands.contacts());

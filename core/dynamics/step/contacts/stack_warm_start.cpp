@@ -61,10 +61,11 @@ void StackWarmStart::add_supports(const ContactScene& scene, const Takes& takes)
     const ContactPair pair{parts_.layout.lane_of(id), parts_.bodies.pushed_number(contact.a),
                            parts_.bodies.pushed_number(contact.b)};
     const ContactSurface& surface = scene.surfaces[contact.manifold];
+    const bool is_new = scene.records[contact.record].count == 0;
     const bool is_driven = surface.drive != Vec3<SolverVelocity>{} || surface.twist_drive != Rate{};
     supports_.add({{pair},
                    contact.record,
-                   scene.records[contact.record].count == 0,
+                   is_new && !parts_.islands.tally(contact).is_converged,
                    contact.has_standing() && !is_driven});
   });
 }

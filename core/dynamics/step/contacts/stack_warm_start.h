@@ -36,13 +36,14 @@ class StackWarmStart {
                                std::size_t joint_capacity, const Parts& parts);
   void make_room(std::uint32_t workers);
 
-  /// Once blocks are prepared and counts of overloaded contacts are known.
+  /// Once blocks are prepared and counts of overloaded contacts are known, before converged islands
+  /// begin: they take the impulses of blocks, and scale the velocities that these give themselves.
   void find(const ContactScene& scene, const ContactRun& run, Parallel& parallel);
 
   /// Limits the energy that impulses have given since a substep's beginning.
   [[nodiscard]] IteratedGainLimit& gain_limit() { return limit_; }
 
-  /// Writes the mean impulses of new contacts that `find` gave one.
+  /// Writes the mean impulses of new iterated contacts that `find` gave one.
   void store(std::span<ContactRecord> records) const { initial_.store(supports_, records); }
 
  private:
