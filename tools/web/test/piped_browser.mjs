@@ -90,7 +90,8 @@ function textOf({ text, exception }) {
 export async function withTab(use) {
   const program = process.env.LOCKSTONE_CHROMIUM ?? PROGRAMS.find((path) => existsSync(path));
   const profile = mkdtempSync(join(tmpdir(), "lockstone-browser-"));
-  // Some programs are scripts that start the browser: the whole group of processes is ended.
+  // Some programs are scripts that start the browser: the whole group of processes is ended, at once,
+  // or one of them writes into the profile while it is removed.
   const browser = spawn(program, [...OPTIONS, `--user-data-dir=${profile}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
   const ended = new Promise((resolve) => browser.on("close", resolve));
   try {
@@ -103,7 +104,7 @@ export async function withTab(use) {
     if (tab.errors.length > 0) throw new Error(tab.errors.join("\n"));
     return result;
   } finally {
-    process.kill(-browser.pid);
+    process.kill(-browser.pid, "SIGKILL");
     await ended;
     rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
   }
