@@ -20,7 +20,7 @@
 #                tested where the compilers are there already
 #   --werror     compiler warnings are errors
 #   --unity      compile batches of files: a build from nothing takes less time, a build after an edit
-#                more. Of core only files that every program with a world links: others it links singly
+#                more. Of core only files that programs link together or not at all: others they link singly
 #   --help       print this
 #
 # Missing Debian packages are installed first (as root or through sudo). LOCKSTONE_JOBS bounds the

@@ -317,12 +317,6 @@ HWY_INLINE HWY_ATTR void solve_lanes(const BallBlock& block, std::size_t lane, c
   store_impulse(next, total, lane);
 }
 
-template <bool plain>
-HWY_INLINE HWY_ATTR void relax_ball_lanes(BallBlock& block, std::size_t lane, BallPair& bodies) {
-  const Lanes none = broadcast(0);
-  solve_lanes<plain>(block, lane, {none, none, none}, bodies, block.impulse);
-}
-
 HWY_ATTR inline void solve_ball_positions(BodyVelocity* bodies, BallBlock* blocks,
                                           std::size_t count) {
   std::int64_t* words = bodies->velocity.data();
@@ -373,7 +367,7 @@ HWY_INLINE HWY_ATTR void update_ball_lanes(BallBlock& block, std::size_t lane,
   pair.push(subtract(Vector{none, none, none}, position_impulse), load(&block.share[lane]), old,
             upper(old));
   store_impulse({none, none, none}, block.position_impulse, lane);
-  relax_ball_lanes<plain>(block, lane, pair);
+  solve_lanes<plain>(block, lane, {none, none, none}, pair, block.impulse);
   pair.store_to(words, block, lane);
 }
 
