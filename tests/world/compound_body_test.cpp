@@ -26,7 +26,7 @@ std::shared_ptr<const Compound> dumbbell() {
 
 World world_with(const AssetPtr& asset) {
   auto assets = std::make_shared<const AssetSet>(std::vector<AssetPtr>{asset});
-  return std::move(World::create({.body_capacity = 64}, std::move(assets))).value();
+  return test::make_world({.body_capacity = 64}, std::move(assets));
 }
 
 BodyDef body_of(const Asset& asset, Position y) {
@@ -125,13 +125,13 @@ TEST(CompoundBody, ComesBackFromACanonicalSnapshotOfTheSameAssetsOnly) {
   test::step(world, 60);
   test::step(other, 60);
   EXPECT_EQ(world.hash().total, other.hash().total);
-  World without = std::move(World::create({.body_capacity = 64})).value();
+  World without = test::make_world({.body_capacity = 64});
   EXPECT_EQ(without.load(SnapshotKind::canonical, saved), Status::incompatible);
 }
 
 TEST(CompoundBody, NeedsAnAssetThatTheWorldKnows) {
   const auto asset = dumbbell();
-  World world = std::move(World::create({.body_capacity = 4})).value();
+  World world = test::make_world({.body_capacity = 4});
   EXPECT_EQ(world.create_body(body_of(*asset, {})).status(), Status::not_found);
   World knowing = world_with(asset);
   BodyDef wrong = body_of(*asset, {});

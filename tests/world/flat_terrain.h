@@ -47,8 +47,7 @@ inline World world_on_triangles(bool mesh) {
   using namespace literals;
   const AssetPtr asset = mesh ? flat_mesh() : level_field();
   const WorldDef def{.body_capacity = 64, .sleep_ms = 0};
-  World world =
-      std::move(World::create(def, std::make_shared<AssetSet>(std::vector{asset}))).value();
+  World world = make_world(def, std::make_shared<AssetSet>(std::vector{asset}));
   BodyDef ground;
   ground.motion = MotionType::static_body;
   ground.shape = asset->shape();

@@ -1,5 +1,6 @@
 #include "tests/world/world_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/random.h"
@@ -8,8 +9,19 @@ namespace lockstone::test {
 
 using namespace literals;
 
-World make_world(WorldDef def) {
-  return std::move(World::create(def)).value();
+WorldDef small_world(WorldDef def) {
+  const WorldDef usual;
+  const auto shrink = [&](std::uint32_t WorldDef::*capacity, std::uint32_t few) {
+    if (def.*capacity == usual.*capacity) def.*capacity = std::min(usual.*capacity, few);
+  };
+  shrink(&WorldDef::pair_capacity, 64 + 8 * def.body_capacity);
+  shrink(&WorldDef::contact_capacity, 64 + 2 * def.body_capacity);
+  shrink(&WorldDef::joint_capacity, 16 + def.body_capacity / 4);
+  return def;
+}
+
+World make_world(WorldDef def, std::shared_ptr<const AssetSet> assets) {
+  return std::move(World::create(small_world(def), std::move(assets))).value();
 }
 
 BodyHandle add(World& world, const BodyDef& def) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <lockstone/literals.h>
@@ -9,9 +10,13 @@
 
 namespace lockstone::test {
 
-/// 60 Hz, 4 substeps, room for a few hundred bodies.
-World make_world(WorldDef def = {
-                     .body_capacity = 512, .pair_capacity = 8192, .contact_capacity = 4096});
+/// With room for few pairs, contacts and joints, where these capacities are left as they are. A
+/// world of the usual ones has 50 MB, which sanitizers take long to hand out.
+WorldDef small_world(WorldDef def);
+
+/// 60 Hz, 4 substeps, room for a few hundred bodies; a small world.
+World make_world(WorldDef def = {.body_capacity = 512},
+                 std::shared_ptr<const AssetSet> assets = nullptr);
 
 /// A static box, 100 m square, whose top is the plane y = 0.
 BodyHandle add_ground(World& world);

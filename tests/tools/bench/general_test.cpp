@@ -20,7 +20,7 @@ GeneralFigures play(std::string_view family, std::uint64_t seed) {
 
 TEST(GeneralScenes, AreTheSameForTheSameSeed) {
   for (const Family& family : families()) {
-    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (std::uint64_t seed = 1; seed <= test::share_of(20U); ++seed)
       EXPECT_EQ(bytes_of(make_scene(family, seed)), bytes_of(make_scene(family, seed)));
   }
 }

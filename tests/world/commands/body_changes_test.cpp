@@ -79,7 +79,7 @@ TEST(BodyView, ReadsASurfaceMotionInTheFrameOfTheShape) {
   const CompoundResult built = Compound::build(children);
   ASSERT_TRUE(built.ok());
   auto assets = std::make_shared<const AssetSet>(std::vector<AssetPtr>{built.compound});
-  World world = std::move(World::create({.body_capacity = 4}, std::move(assets))).value();
+  World world = test::make_world({.body_capacity = 4}, std::move(assets));
   BodyDef def;
   def.motion = MotionType::static_body;
   def.shape = built.compound->shape();
@@ -259,8 +259,7 @@ TEST(SetShape, KeepsTheSpeedOfEachPoint) {
   const CompoundResult built = Compound::build(children);
   ASSERT_TRUE(built.ok());
   auto assets = std::make_shared<const AssetSet>(std::vector<AssetPtr>{built.compound});
-  World world =
-      std::move(World::create({.body_capacity = 4, .gravity = {}}, std::move(assets))).value();
+  World world = test::make_world({.body_capacity = 4, .gravity = {}}, std::move(assets));
   BodyDef def = test::dynamic_body(children[0].shape, {}, {}, {});
   def.velocity = {1_mps, {}, {}};
   def.angular_velocity = {{}, {}, 2_rps};

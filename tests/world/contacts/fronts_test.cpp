@@ -59,7 +59,7 @@ AssetPtr flake(test::Random& random) {
 World world_on(std::vector<AssetPtr> assets, const AssetPtr& floor) {
   assets.push_back(floor);
   WorldDef def{.body_capacity = 64, .pair_capacity = 1024, .contact_capacity = 1024};
-  World world = std::move(World::create(def, std::make_shared<const AssetSet>(assets))).value();
+  World world = test::make_world(def, std::make_shared<const AssetSet>(assets));
   BodyDef body;
   body.motion = MotionType::static_body;
   body.shape = floor->shape();

@@ -41,10 +41,8 @@ double metres_between(const Vec3<Position>& a, const Vec3<Position>& b) {
 TEST(Resting, StaysPutOnAHalfSpaceAHundredKilometresAway) {
   const AssetPtr hull = octahedron_like();
   for (const Position place : {Position{}, Position(100000_m), Position(-1000000_m)}) {
-    World world =
-        std::move(World::create({.body_capacity = 8},
-                                std::make_shared<const AssetSet>(std::vector<AssetPtr>{hull})))
-            .value();
+    World world = test::make_world({.body_capacity = 8},
+                                   std::make_shared<const AssetSet>(std::vector<AssetPtr>{hull}));
     BodyDef ground;
     ground.motion = MotionType::static_body;
     ground.shape = Shape::half_space();

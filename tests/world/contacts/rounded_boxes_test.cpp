@@ -126,9 +126,8 @@ TEST(RoundedBoxBodies, ArePartsOfCompounds) {
   const auto again = Compound::from_bytes(table->canonical_bytes(), {});
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(again.value()->id(), table->id());
-  World world = std::move(World::create({.body_capacity = 8, .sleep_ms = 0},
-                                        std::make_shared<AssetSet>(std::vector<AssetPtr>{table})))
-                    .value();
+  World world = test::make_world({.body_capacity = 8, .sleep_ms = 0},
+                                 std::make_shared<AssetSet>(std::vector<AssetPtr>{table}));
   test::add_ground(world);
   const BodyHandle body = test::add(world, test::dynamic_body(table->shape(), {}, 0.6_m, {}));
   test::step(world, 600);
@@ -195,7 +194,7 @@ AssetPtr rounded_test_hull(Length half, Length radius) {
 
 World rounded_hull_world(const std::vector<AssetPtr>& assets) {
   const WorldDef def{.body_capacity = 64, .sleep_ms = 0};
-  return std::move(World::create(def, std::make_shared<AssetSet>(assets))).value();
+  return test::make_world(def, std::make_shared<AssetSet>(assets));
 }
 
 TEST(RoundedHullBodies, StandInAStackAsRoundedBoxesDo) {

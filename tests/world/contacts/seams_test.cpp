@@ -142,7 +142,7 @@ Course travel(World& world, BodyHandle body, int ticks) {
 
 Course roll(Tile kind, int speed, const Shape& shape, Length jitter = {}) {
   const Assets assets;
-  World world = std::move(World::create({}, assets.set())).value();
+  World world = test::make_world({}, assets.set());
   add_tiles(world, assets, kind, 2 * speed + 3, 0.6_r, jitter);
   const Length radius = shape.size.x;
   BodyDef def = test::dynamic_body(shape, {}, rounded<Position>(radius), 0.13_m);
@@ -155,7 +155,7 @@ Course roll(Tile kind, int speed, const Shape& shape, Length jitter = {}) {
 
 Course slide(Tile kind, int speed, const Shape& shape, Length height, Length jitter = {}) {
   const Assets assets;
-  World world = std::move(World::create({}, assets.set())).value();
+  World world = test::make_world({}, assets.set());
   add_tiles(world, assets, kind, 2 * speed + 3, {}, jitter);
   BodyDef def = test::dynamic_body(shape, {}, rounded<Position>(height), 0.13_m);
   def.velocity = {Velocity::from_integer(speed), {}, {}};
@@ -286,7 +286,7 @@ TEST(NoSeam, AreFoundAlikeByAnyNumberOfThreads) {
   const Assets assets;
   std::vector<std::uint64_t> hashes;
   for (const unsigned threads : {1U, 3U}) {
-    World world = std::move(World::create({}, assets.set())).value();
+    World world = test::make_world({}, assets.set());
     ThreadPool pool(threads);
     world.set_task_runner(&pool, TaskPieces::smallest);
     add_tiles(world, assets, Tile::mixed, 24, {});

@@ -82,7 +82,7 @@ World crowd() {
   test::Random random(test::run_seed());
   const AssetPtr rock = random_rock(random);
   auto assets = std::make_shared<const AssetSet>(std::vector<AssetPtr>{rock});
-  World world = std::move(World::create({.body_capacity = 128}, std::move(assets))).value();
+  World world = test::make_world({.body_capacity = 128}, std::move(assets));
   test::add_ground(world);
   const Shape shapes[] = {rock->shape(), Shape::box(0.4_m, 0.4_m, 0.4_m), rock->shape(),
                           Shape::capsule(0.3_m, 0.2_m)};

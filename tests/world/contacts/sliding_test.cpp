@@ -131,9 +131,8 @@ Vec3<T> along(const std::array<double, 3>& direction, double amount) {
 World make_track(const Track& track, const AssetPtr& hull) {
   WorldDef def{.body_capacity = 128, .pair_capacity = 1024, .contact_capacity = 1024};
   def.gravity = along<Acceleration>(axis(track, 1), -9.81);
-  World world = std::move(World::create(def, std::make_shared<const AssetSet>(
-                                                 std::vector<AssetPtr>{track.surface, hull})))
-                    .value();
+  World world = test::make_world(
+      def, std::make_shared<const AssetSet>(std::vector<AssetPtr>{track.surface, hull}));
   BodyDef ground;
   ground.motion = MotionType::static_body;
   ground.shape = track.surface->shape();

@@ -56,7 +56,7 @@ class Sweepers : public ::testing::Test {
   }
 
   [[nodiscard]] World make_world() const {
-    return std::move(World::create({.body_capacity = 16, .gravity = {}}, assets_)).value();
+    return test::make_world({.body_capacity = 16, .gravity = {}}, assets_);
   }
 
   std::int64_t between(std::int64_t low, std::int64_t high) { return random_.between(low, high); }

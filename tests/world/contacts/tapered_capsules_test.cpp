@@ -159,9 +159,8 @@ TEST(TaperedCapsuleBodies, ArePartsOfCompounds) {
   }
   const AssetPtr stool = Compound::build(children).compound;
   ASSERT_NE(stool, nullptr);
-  World world = std::move(World::create({.body_capacity = 8, .sleep_ms = 0},
-                                        std::make_shared<AssetSet>(std::vector{stool})))
-                    .value();
+  World world = test::make_world({.body_capacity = 8, .sleep_ms = 0},
+                                 std::make_shared<AssetSet>(std::vector{stool}));
   test::add_ground(world);
   const BodyHandle body = test::add(world, test::dynamic_body(stool->shape(), {}, 1_m, {}));
   test::step(world, 600);

@@ -39,7 +39,7 @@ TEST(ThinBoxes, FallAndRestOnEachOfTheirFloors) {
 }
 
 TEST(ThinBoxes, LieInAStackOfFourMillimetres) {
-  World world = test::make_world({.body_capacity = 32});
+  World world = test::make_world({.body_capacity = 32, .contact_capacity = 256});  // any two touch
   test::add_ground(world);
   std::vector<BodyHandle> sheets;
   for (int i = 0; i < 20; ++i)

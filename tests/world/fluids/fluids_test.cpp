@@ -222,7 +222,7 @@ TEST(Fluid, OfACompoundCarriesEachPart) {
   const CompoundResult built = Compound::build(children);
   ASSERT_TRUE(built.ok());
   auto assets = std::make_shared<const AssetSet>(std::vector<AssetPtr>{built.compound});
-  World world = std::move(World::create({.body_capacity = 4}, std::move(assets))).value();
+  World world = test::make_world({.body_capacity = 4}, std::move(assets));
   ASSERT_EQ(world.apply(SetFluid{0, water()}), Status::ok);
   BodyDef def = floating(built.compound->shape(), Density::from_integer(2000), -20_m);
   const BodyHandle body = test::add(world, def);

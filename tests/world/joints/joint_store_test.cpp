@@ -15,8 +15,10 @@ namespace {
 
 using namespace literals;
 
+const WorldDef k_def{.body_capacity = 8};
+
 struct HungBall {
-  World world = test::make_world();
+  World world = test::make_world(k_def);
   BodyHandle anchor = test::add(world, fixed());
   BodyHandle bob = test::add(world, test::dynamic_body(Shape::sphere(0.5_m), 1_m, {}, {}));
 
@@ -131,7 +133,7 @@ TEST(JointStore, LoadedGivesTheSameStateAndRefusesForgedRecords) {
   ASSERT_TRUE(p.world.create_joint(p.ball()).ok());
   (void)p.world.step();
   for (const SnapshotKind kind : {SnapshotKind::native, SnapshotKind::canonical}) {
-    World copy = test::make_world();
+    World copy = test::make_world(k_def);
     ASSERT_EQ(copy.load(kind, test::save(p.world, kind)), Status::ok);
     EXPECT_EQ(copy.hash().total, p.world.hash().total);
     EXPECT_EQ(copy.joint_count(), 1U);
@@ -145,7 +147,7 @@ TEST(JointStore, LoadedGivesTheSameStateAndRefusesForgedRecords) {
     const std::uint64_t hash = hash64(ByteView(forged).first(forged.size() - 8));
     for (std::size_t i = 0; i < 8; ++i)
       forged[forged.size() - 8 + i] = static_cast<std::byte>(hash >> (8 * i));
-    World target = test::make_world();
+    World target = test::make_world(k_def);
     if (target.load(SnapshotKind::canonical, forged) == Status::ok) {
       test::step(target, 2);
     } else {

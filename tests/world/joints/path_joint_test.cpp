@@ -29,9 +29,8 @@ struct Bead {
 
   explicit Bead(AssetPtr path, Vec3<Acceleration> gravity = {})
       : asset(std::move(path)),
-        world(World::create({.body_capacity = 8, .joint_capacity = 4, .gravity = gravity},
-                            std::make_shared<const AssetSet>(std::vector<AssetPtr>{asset}))
-                  .value()) {
+        world(test::make_world({.body_capacity = 8, .joint_capacity = 4, .gravity = gravity},
+                               std::make_shared<const AssetSet>(std::vector<AssetPtr>{asset}))) {
     def = JointDef::of(JointKind::path, test::add_fixed(world), {});
     def.path = asset->id();
   }

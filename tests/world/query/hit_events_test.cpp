@@ -238,7 +238,7 @@ TEST(HitEvents, NoneComeFromRest) {
 TEST(HitEvents, NameTheTriangleAndTheChild) {
   const AssetPtr grid = make_grid(), pair = make_pair_of_balls();
   auto assets = std::make_shared<const AssetSet>(std::vector<AssetPtr>{grid, pair});
-  World world = std::move(World::create({}, assets)).value();
+  World world = test::make_world({}, assets);
   BodyDef floor;
   floor.motion = MotionType::static_body;
   floor.shape = grid->shape();

@@ -82,7 +82,7 @@ class Triggers : public ::testing::Test {
     WorldDef def;
     def.body_capacity = 16;
     def.gravity = {};
-    return std::move(World::create(def, assets_)).value();
+    return test::make_world(def, assets_);
   }
 
   std::vector<Named> bounded_, surfaces_;

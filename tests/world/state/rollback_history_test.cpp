@@ -461,7 +461,8 @@ TEST(RollbackHistory, ChangesNothingWhateverIsCommanded) {
 }
 
 World make_wall() {
-  World world = test::make_world({.body_capacity = 160, .pair_capacity = 2048});
+  World world =
+      test::make_world({.body_capacity = 160, .pair_capacity = 2048, .contact_capacity = 1024});
   test::add_ground(world);
   for (std::int64_t i = 0; i < 130; ++i) {
     const std::int64_t row = i / 13, x = 2500 * (i % 13) + 1250 * (row % 2) + i % 7;

@@ -25,10 +25,7 @@ namespace {
 using namespace literals;
 
 World busy_world(std::uint64_t seed, BroadPhaseKind broad_phase = BroadPhaseKind::tree) {
-  World world = test::make_world({.body_capacity = 512,
-                                  .pair_capacity = 8192,
-                                  .contact_capacity = 4096,
-                                  .broad_phase = broad_phase});
+  World world = test::make_world({.body_capacity = 512, .broad_phase = broad_phase});
   test::fill_with_random_bodies(world, seed, 80);
   test::step(world, 90);
   return world;

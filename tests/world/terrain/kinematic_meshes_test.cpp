@@ -25,12 +25,9 @@ struct Ship {
   BodyHandle deck;
 
   explicit Ship(bool of_triangles = true, BodyDef motion = {}, bool cargo_first = false)
-      : world(World::create({.body_capacity = 32,
-                             .joint_capacity = 1,
-                             .sleep_ms = 0,
-                             .terrain_tile_capacity = 4},
-                            std::make_shared<AssetSet>(std::vector{asset}))
-                  .value()) {
+      : world(test::make_world(
+            {.body_capacity = 32, .joint_capacity = 1, .sleep_ms = 0, .terrain_tile_capacity = 4},
+            std::make_shared<AssetSet>(std::vector{asset}))) {
     if (cargo_first) load();
     motion.motion = MotionType::kinematic;
     motion.shape = of_triangles ? asset->shape() : Shape::box(3_m, 0.5_m, 3_m);
@@ -173,8 +170,7 @@ TEST(KinematicMeshes, AreNeitherDynamicNorHeightFields) {
   EXPECT_EQ(ship.world.explain(def).field, "body.motion");
   EXPECT_EQ(ship.world.apply(SetShape{ship.crate, def.shape}), Status::invalid_argument);
   const AssetPtr field = test::level_field();
-  World world =
-      std::move(World::create({}, std::make_shared<AssetSet>(std::vector{field}))).value();
+  World world = test::make_world({}, std::make_shared<AssetSet>(std::vector{field}));
   def.shape = field->shape();
   def.motion = MotionType::kinematic;
   EXPECT_EQ(world.create_body(def).status(), Status::invalid_argument);

@@ -64,9 +64,8 @@ struct Level {
 
   explicit Level(AssetPtr of, std::uint32_t tiles = 4)
       : asset(std::move(of)),
-        world(World::create({.body_capacity = 64, .terrain_tile_capacity = tiles},
-                            std::make_shared<AssetSet>(std::vector{asset}))
-                  .value()) {
+        world(test::make_world({.body_capacity = 64, .terrain_tile_capacity = tiles},
+                               std::make_shared<AssetSet>(std::vector{asset}))) {
     BodyDef def;
     def.motion = MotionType::static_body;
     def.shape = asset->shape();
@@ -208,9 +207,8 @@ TEST(MeshCompounds, TellThePartThatIsHit) {
 TEST(MeshCompounds, AreSeenByQueriesAsTheirChildrenAre) {
   const auto children = test::sample_level_children();
   Level level(test::sample_level());
-  World apart = World::create({.body_capacity = 8},
-                              std::make_shared<AssetSet>(std::vector{test::sample_panels()}))
-                    .value();
+  World apart = test::make_world({.body_capacity = 8},
+                                 std::make_shared<AssetSet>(std::vector{test::sample_panels()}));
   for (const CompoundChild& child : children) {
     BodyDef def;
     def.motion = MotionType::static_body;

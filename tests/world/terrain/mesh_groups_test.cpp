@@ -53,9 +53,8 @@ struct Floor {
 
   explicit Floor(AssetPtr mesh = floor_without({}, true), std::uint32_t tiles = 4)
       : asset(std::move(mesh)),
-        world(World::create({.body_capacity = 32, .terrain_tile_capacity = tiles},
-                            std::make_shared<AssetSet>(std::vector{asset}))
-                  .value()) {
+        world(test::make_world({.body_capacity = 32, .terrain_tile_capacity = tiles},
+                               std::make_shared<AssetSet>(std::vector{asset}))) {
     BodyDef def;
     def.motion = MotionType::static_body;
     def.shape = asset->shape();

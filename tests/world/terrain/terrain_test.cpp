@@ -48,7 +48,7 @@ WorldDef terrain_def(std::uint32_t tiles = 64) {
 }
 
 World make_world(const WorldDef& def = terrain_def(), const AssetPtr& asset = flat_field()) {
-  return World::create(def, std::make_shared<AssetSet>(std::vector{asset})).value();
+  return test::make_world(def, std::make_shared<AssetSet>(std::vector{asset}));
 }
 
 BodyHandle add_terrain(World& world, const Vec3<Position>& at = {}) {
