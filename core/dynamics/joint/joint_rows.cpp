@@ -1,6 +1,7 @@
 #include "core/dynamics/joint/joint_rows.h"
 
 #include <algorithm>
+#include <array>
 
 #include <lockstone/assert.h>
 
@@ -248,12 +249,15 @@ std::size_t most_rows(const JointRecord& joint) {
   return count;
 }
 
+bool is_free_ball(const JointRecord& joint) {
+  constexpr auto k_locked = static_cast<std::uint8_t>(AxisMode::locked);
+  constexpr auto k_free = static_cast<std::uint8_t>(AxisMode::free);
+  constexpr std::array k_modes{k_locked, k_locked, k_locked, k_free, k_free, k_free};
+  return joint.is(JointKind::ball) && joint.modes == k_modes;
+}
+
 bool is_point(const JointRecord& joint) {
-  if (!joint.is(JointKind::ball) || !has_world_axes(joint)) return false;
-  for (std::size_t axis = 3; axis < k_joint_axes; ++axis) {
-    if (joint.mode(axis) != AxisMode::free || joint.axes[axis].is_driven()) return false;
-  }
-  return true;
+  return is_free_ball(joint) && !is_driven(joint);
 }
 
 bool holds_a_point(const JointRecord& joint, std::uint8_t far) {

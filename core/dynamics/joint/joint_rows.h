@@ -103,6 +103,9 @@ struct LockErrors {
 /// Whether the locks of the first three axes are along the axes of the world, not of frame a.
 [[nodiscard]] bool has_world_axes(const JointRecord& joint);
 
+/// Whether it is a ball without limits.
+[[nodiscard]] bool is_free_ball(const JointRecord& joint);
+
 /// Whether it holds a point and nothing else: a ball without limits and drives.
 [[nodiscard]] bool is_point(const JointRecord& joint);
 

@@ -1,12 +1,12 @@
 #include "core/dynamics/linkage/joint_planner.h"
 
 #include <algorithm>
-#include <array>
 
 #include <lockstone/assert.h>
 
 #include "core/base/reserved.h"
 #include "core/dynamics/joint/joint_numbers.h"
+#include "core/dynamics/joint/joint_rows.h"
 #include "core/dynamics/linkage/rows/joint_drives.h"
 #include "core/dynamics/linkage/rows/pulled_links.h"
 
@@ -27,18 +27,6 @@ bool fits_ball(const LinkedBody& body, const Vec3<Length>& anchor) {
   const std::int64_t bound = std::int64_t{1} << std::max(shift, 0);
   const auto inside = [&](Length x) { return x.raw <= bound && x.raw >= -bound; };
   return inside(anchor.x) && inside(anchor.y) && inside(anchor.z);
-}
-
-// Whether a joint that nothing drives is a ball without limits, on bodies that the coloured balls
-// can fasten.
-bool fits_balls(const JointSystem& system, const AddedJoint& added) {
-  constexpr auto k_locked = static_cast<std::uint8_t>(AxisMode::locked);
-  constexpr auto k_free = static_cast<std::uint8_t>(AxisMode::free);
-  constexpr std::array k_point_modes{k_locked, k_locked, k_locked, k_free, k_free, k_free};
-  const JointRecord& joint = *added.record;
-  return joint.is(JointKind::ball) && joint.modes == k_point_modes &&
-         fits_ball(system.bodies[added.a], joint.anchor_a) &&
-         fits_ball(system.bodies[added.b], joint.anchor_b);
 }
 
 // Whether the tick before kept other impulses than those along the first three axes.
@@ -67,9 +55,13 @@ JointPlanner::JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loo
 }
 
 void JointPlanner::read(AddedJoint& joint) {
+  LKS_ASSERT(joint.record->exists());
+  LKS_ASSERT(joint.a < system_.bodies.size() && joint.b < system_.bodies.size());
   joint.is_driven = is_driven(*joint.record);
   joint.has_motor = joint.is_driven && std::ranges::any_of(joint.record->axes, is_motor);
-  joint.fits_balls = !joint.is_driven && fits_balls(system_, joint);
+  joint.fits_balls = !joint.is_driven && is_free_ball(*joint.record) &&
+                     fits_ball(system_.bodies[joint.a], joint.record->anchor_a) &&
+                     fits_ball(system_.bodies[joint.b], joint.record->anchor_b);
   joint.has_other_impulses = has_other_impulses(*joint.record);
   for (const std::uint32_t body : {joint.a, joint.b})
     if (system_.bodies[body].pushed) ++system_.bodies[body].joint_count;
