@@ -6,6 +6,7 @@
 // is repaired to the exact floor by an upward step.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -100,6 +101,17 @@ inline constexpr std::array<std::uint16_t, 192> k_start = make_table();
 
 /// √(x² + y² + z²) to nearest, for all inputs.
 [[nodiscard]] std::uint64_t norm(std::int64_t x, std::int64_t y, std::int64_t z);
+
+/// At least √(x² + y² + z²), and at most a seventh more, plus 2; components within ±2^57. It is
+/// linear between (1, 0, 0), (1, 1, 0) and (1, 1, 1), where it is not below the norm, and a norm is
+/// convex.
+[[nodiscard]] constexpr std::int64_t norm_bound(std::int64_t x, std::int64_t y, std::int64_t z) {
+  const std::int64_t a = x < 0 ? -x : x, b = y < 0 ? -y : y, c = z < 0 ? -z : z;
+  const std::int64_t most = std::max({a, b, c}), least = std::min({a, b, c});
+  const std::int64_t middle = a + b + c - most - least;
+  constexpr std::int64_t k_middle = 27, k_least = 21;  // above √2 − 1 and √3 − √2, in 64 parts
+  return most + ((k_middle * middle + k_least * least) >> 6) + 1;
+}
 
 /// x² + y² + z² of 32-bit raws, exact.
 template <class D, int F>

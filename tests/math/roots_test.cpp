@@ -128,6 +128,27 @@ TEST(Norm, IsRoundedCorrectlyForVectorsOfAnyScale) {
   EXPECT_EQ(length(Vec3<Length>{Length::min(), {}, {}}), Length::max());
 }
 
+TEST(NormBound, IsNotBelowTheNormAndAtMostASeventhAbove) {
+  const auto check = [](std::int64_t x, std::int64_t y, std::int64_t z) {
+    const auto exact = static_cast<std::int64_t>(norm(x, y, z));
+    const std::int64_t bound = norm_bound(x, y, z);
+    ASSERT_GE(bound, exact) << x << ' ' << y << ' ' << z;
+    ASSERT_LE(bound - exact, exact / 7 + 2) << x << ' ' << y << ' ' << z;
+  };
+  constexpr std::int64_t k_most = std::int64_t{1} << 57;
+  for (const std::int64_t one : {std::int64_t{0}, std::int64_t{1}, std::int64_t{1000}, k_most}) {
+    check(one, 0, 0);
+    check(0, -one, one);
+    check(-one, one, -one);
+  }
+  Raws raws;
+  for (int i = 0; i < test::share_of(100000); ++i) {
+    const int bits = 1 + i % 57;
+    const std::int64_t x = raws.signed_below_bits(bits), y = raws.signed_below_bits(bits);
+    check(x, y, raws.signed_below_bits(bits));
+  }
+}
+
 TEST(Direction, ErrsLessThan0_51InTheLastPlace) {
   Raws raws;
   double worst = 0;

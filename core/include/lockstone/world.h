@@ -35,7 +35,7 @@ namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
 /// or a log. History: docs/explanation/determinism.md.
-inline constexpr std::uint32_t k_simulation_abi = 81;
+inline constexpr std::uint32_t k_simulation_abi = 82;
 
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {

@@ -2,6 +2,7 @@
 
 #include "core/dynamics/body/inertia.h"
 #include "core/math/int128.h"
+#include "core/math/roots.h"
 #include "core/world/derived/quantities.h"
 
 namespace lockstone {
@@ -171,8 +172,14 @@ bool WorldData::is_obstacle(std::uint32_t body, std::uint32_t other) const {
 }
 
 std::int64_t turning_speed(const WorldData& world, std::uint32_t body) {
-  const std::int64_t speed = sum_of_magnitudes(uncovered_turn(world, body));
-  return std::max<std::int64_t>(speed - covered_speed(world.time_step), 0);
+  const Vec3<Velocity> turn = uncovered_turn(world, body);
+  if (turn == Vec3<Velocity>{}) return 0;
+  const BodyRecord& record = world.bodies[body];
+  const Length radius = bounding_radius(record.shape(), world.cache.asset(body));
+  const std::int64_t speed =
+      raw::multiply_shift(norm_bound(turn.x.raw, turn.y.raw, turn.z.raw), radius.raw,
+                          Length::frac_bits + record.scale_exponent);
+  return std::max<std::int64_t>(speed + 1 - covered_speed(world.time_step), 0);
 }
 
 }  // namespace lockstone

@@ -9,6 +9,7 @@
 #include <lockstone/assert.h>
 
 #include "core/geometry/dispatch/collide.h"
+#include "core/math/roots.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/phases/narrow/pair_collider.h"
 
@@ -48,8 +49,9 @@ Length margin_of(const WorldData& world, const Pair& pair) {
 
 Length margin_of(const WorldData& world, const Pair& pair, std::int64_t turning) {
   const Vec3<Velocity> passing = world.bodies[pair.a].velocity - world.bodies[pair.b].velocity;
-  const Length reach = max(way_in_tick(world.time_step, sum_of_magnitudes(passing)),
-                           Length::from_raw(1 << k_reach_bits));
+  const Length reach =
+      max(way_in_tick(world.time_step, norm_bound(passing.x.raw, passing.y.raw, passing.z.raw)),
+          Length::from_raw(1 << k_reach_bits));
   const Length thickness = max(thickness_of(world, pair.a), thickness_of(world, pair.b));
   const Length turn = way_in_tick(world.time_step, turning);
   return k_contact_margin +
