@@ -9,6 +9,8 @@ namespace lockstone::test {
 
 using namespace literals;
 
+namespace {
+
 WorldDef small_world(WorldDef def) {
   const WorldDef usual;
   const auto shrink = [&](std::uint32_t WorldDef::*capacity, std::uint32_t few) {
@@ -19,6 +21,8 @@ WorldDef small_world(WorldDef def) {
   shrink(&WorldDef::joint_capacity, 16 + def.body_capacity / 4);
   return def;
 }
+
+}  // namespace
 
 World make_world(WorldDef def, std::shared_ptr<const AssetSet> assets) {
   return std::move(World::create(small_world(def), std::move(assets))).value();

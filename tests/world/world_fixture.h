@@ -10,11 +10,9 @@
 
 namespace lockstone::test {
 
-/// With room for few pairs, contacts and joints, where these capacities are left as they are. A
-/// world of the usual ones has 50 MB, which sanitizers take long to hand out.
-WorldDef small_world(WorldDef def);
-
-/// 60 Hz, 4 substeps, room for a few hundred bodies; a small world.
+/// 60 Hz, 4 substeps, room for a few hundred bodies. Capacities of pairs, contacts and joints that
+/// are left as they are become small: a world of the usual ones has 50 MB, which sanitizers take
+/// long to hand out.
 World make_world(WorldDef def = {.body_capacity = 512},
                  std::shared_ptr<const AssetSet> assets = nullptr);
 
