@@ -329,6 +329,7 @@ HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& 
   made->columns.fill(made->vertices, made->faces, made->edges);
   made->surface.wide = &made->columns.view();
   made->surface.unevenness = unevenness_of(boundary.faces, made->faces, made->vertices);
+  made->surface.least_mean_normal = geometry::least_mean_normal_of(made->faces, made->edges);
   if (options.radius > Length{} && !made->round(options.radius, boundary.faces))
     return {nullptr, HullFault::too_large, {}};
   made->id = geometry::id_of(encode(made->vertices, options.tolerance, options.radius));

@@ -1,6 +1,24 @@
 #include "core/geometry/convex/polytope.h"
 
+#include <algorithm>
+
+#include "core/math/roots.h"
+
 namespace lockstone::geometry {
+
+// A mean of two unit vectors is shortest in their middle, where its square is (1 + cosine) / 2.
+Unit least_mean_normal_of(std::span<const PolytopeFace> faces, std::span<const HalfEdge> edges) {
+  constexpr std::int64_t one = std::int64_t{1} << (2 * Unit::frac_bits);
+  constexpr std::int64_t rounding = one >> 27;  // of the cosine of rounded normals
+  std::int64_t least = one;
+  for (const HalfEdge& edge : edges) {
+    const Fine cosine =
+        lockstone::dot(faces[edge.face].normal, faces[edges[edge.twin].face].normal).raw;
+    least = std::min(least, (one + cosine) / 2);
+  }
+  const std::int64_t square = std::max<std::int64_t>(least - rounding, 0);
+  return Unit::from_raw(static_cast<std::int32_t>(isqrt(static_cast<std::uint64_t>(square))));
+}
 
 Support support_of(const Polytope& polytope, const Vec3<Unit>& n) {
   if (polytope.wide != nullptr) {

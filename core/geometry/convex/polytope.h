@@ -64,7 +64,14 @@ struct Polytope {
   Length radius{};      ///< by which the shape surrounds the polytope
   const FacetCorrection* facets = nullptr;  ///< of rounded hulls
   const PolytopeLanes* wide = nullptr;      ///< null: few enough to be read one by one
+  /// At most the length of any mean of the normals of two faces that share an edge: 1 if they turn
+  /// little, 0 if nothing is known.
+  Unit least_mean_normal{};
 };
+
+/// The same of faces and edges.
+[[nodiscard]] Unit least_mean_normal_of(std::span<const PolytopeFace> faces,
+                                        std::span<const HalfEdge> edges);
 
 /// Whether faces were merged so roughly that their planes, and the arcs between them, differ from
 /// the vertices by more than 15 µm.

@@ -58,7 +58,9 @@ BoxPolytope::BoxPolytope(const Vec3<Length>& half_extents, Length radius) : radi
 }
 
 Polytope BoxPolytope::view() const {
-  return {vertices_, faces_, k_box_edges, {}, nullptr, false, 0, radius_, nullptr};
+  constexpr Unit least_mean_normal = Unit::from_ratio(7071, 10'000);  // below the cosine of 45°
+  return {vertices_, faces_,  k_box_edges, {},      nullptr,          false,
+          0,         radius_, nullptr,     nullptr, least_mean_normal};
 }
 
 }  // namespace lockstone::geometry

@@ -125,6 +125,7 @@ class TestPolytope {
         metres(static_cast<double>(sum.x), static_cast<double>(sum.y), static_cast<double>(sum.z)),
         &geometry::polytope_kernels(),
         false};
+    view_.least_mean_normal = geometry::least_mean_normal_of(faces_, edges_);
   }
 
   void add_face(const std::vector<std::uint16_t>& loop) {

@@ -55,9 +55,11 @@ struct Meeting {
   }
 };
 
-Manifold face_manifold_of(const Meeting& meeting, bool b_is_reference) {
-  if (!b_is_reference) return meeting.a.face < 0 ? Manifold{} : face_manifold(meeting.on_a());
-  return meeting.b.face < 0 ? Manifold{} : flipped(face_manifold(meeting.on_b()));
+Manifold face_manifold_of(const Meeting& meeting, bool b_is_reference,
+                          Fine highest = k_any_separation) {
+  if (!b_is_reference)
+    return meeting.a.face < 0 ? Manifold{} : face_manifold(meeting.on_a(), highest);
+  return meeting.b.face < 0 ? Manifold{} : flipped(face_manifold(meeting.on_b(), highest));
 }
 
 Manifold reference_manifold(const Meeting& meeting) {
@@ -196,7 +198,7 @@ Manifold nearest_face(const Meeting& meeting, bool b_is_reference, Fine separati
   const FaceSupport& face = b_is_reference ? meeting.b : meeting.a;
   LKS_ASSERT(separation > 0);
   if (face.face < 0 || face.separation < separation - k_face_slack) return {};
-  const Manifold manifold = face_manifold_of(meeting, b_is_reference);
+  const Manifold manifold = face_manifold_of(meeting, b_is_reference, separation + k_face_slack);
   if (!attains(manifold, separation)) return {};
   const Vec3<Unit> n = rotate_inverse(meeting.pair.rotation_a, manifold.normal);
   return meeting.toward_front.allows(-n) ? manifold : Manifold{};

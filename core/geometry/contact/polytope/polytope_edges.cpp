@@ -83,11 +83,17 @@ void mark_edges(const Polytope& own, const WitnessedFaces& faces, EdgeBits& mark
   });
 }
 
-/// On an axis between the normals of the edge's faces the separation is at most the greater height
-/// of a witness over the two, when that is not above zero: dividing a sum of heights by the length
-/// of the sum of normals, which is below 1, only lowers it.
+/// How high a witness may be over both faces of an edge whose axes separate by no more than the
+/// threshold. Such an axis is a mean of the two normals, made a unit vector; the witness is as high
+/// along it as the mean of both heights, divided by the length of the mean normal.
+Fine bound_of(const Polytope& own, Fine threshold) {
+  if (threshold <= 0) return threshold;  // the division only lowers it
+  const Fine height = raw::multiply_shift(threshold, own.least_mean_normal.raw, Unit::frac_bits);
+  return std::max(height - own.unevenness - k_witness_slack, Fine{0});
+}
+
 void collect_edges(const Polytope& own, const Witness& witness, Fine threshold, EdgeList& list) {
-  WitnessedFaces faces(own, witness, std::min(threshold, Fine{0}));
+  WitnessedFaces faces(own, witness, bound_of(own, threshold));
   EdgeBits marks{};
   mark_edges(own, faces, marks);
   list.count = 0;

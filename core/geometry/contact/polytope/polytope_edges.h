@@ -19,9 +19,9 @@ struct EdgeSupport {
 ///
 /// Two edges span a face of the Minkowski difference when the arcs between their faces' normals
 /// cross on the unit sphere (Dirk Gregorius, The Separating Axis Test between Convex Polyhedra);
-/// signs of exact products decide. An edge between faces that a witness is not above cannot beat a
-/// threshold that the witness' heights do not reach: it is left out. The separation of the
-/// remaining edges is that of the supporting vertices, whatever the edges were.
+/// signs of exact products decide. The axes of an edge lie between the normals of its two faces, so
+/// that a witness which is low enough over both leaves it out. The separation of the remaining edges
+/// is that of the supporting vertices, whatever the edges were.
 ///
 /// Axes that point to the back of `front` (A's frame) count only when they separate.
 [[nodiscard]] EdgeSupport best_edge(const PolytopePair& pair, Fine threshold, const Facing& front,

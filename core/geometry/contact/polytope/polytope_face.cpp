@@ -9,6 +9,7 @@
 
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/contact/manifold/manifold_reduction.h"
+#include "core/geometry/contact/polytope/face_reach.h"
 #include "core/geometry/contact/polytope/polytope_edges.h"
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/distance/manifold_checks.h"
@@ -436,12 +437,13 @@ Manifold manifold_of(const ReferenceFrame& frame, const IncidentPolygon& polygon
 
 }  // namespace
 
-Manifold face_manifold(const PolytopeFaceMeeting& meeting) {
+Manifold face_manifold(const PolytopeFaceMeeting& meeting, Fine highest) {
   LKS_ASSERT(meeting.face.face >= 0 && meeting.face.support >= 0);
   const PolytopeView& view = meeting.view;
   const PolytopeFace& face = view.own.faces[static_cast<std::size_t>(meeting.face.face)];
   const int incident =
       most_opposed_face(view.other, meeting.face.support, view.to_other(face.normal));
+  if (highest < k_any_separation && !may_come_down(meeting, incident, highest)) return {};
   ReferenceFrame frame = make_frame(meeting, incident);
   Outline outline;
   IncidentPolygon polygon;

@@ -2,6 +2,7 @@
 // face.
 #pragma once
 
+#include "core/geometry/contact/manifold/contact_choice.h"
 #include "core/geometry/contact/polytope/polytope_pair.h"
 
 namespace lockstone::geometry {
@@ -30,8 +31,10 @@ inline constexpr std::uint32_t k_hull_of_b = 1U << 27;
 /// The incident face is, of those around the deepest vertex, the one that is turned most towards
 /// the reference (Gregorius, as above; Box3D). Clipped by Sutherland and Hodgman, Reentrant polygon
 /// clipping, on a lattice of 30 bits a lane: resolution 2^-29 of the extent. A vertex beyond a side
-/// by less than k_snap is moved onto it and keeps its feature; by √2 · k_snap in all.
-[[nodiscard]] Manifold face_manifold(const PolytopeFaceMeeting& meeting);
+/// by less than k_snap is moved onto it and keeps its feature; by √2 · k_snap in all. Where all
+/// points would be higher than `highest`, there may be none.
+[[nodiscard]] Manifold face_manifold(const PolytopeFaceMeeting& meeting,
+                                     Fine highest = k_any_separation);
 
 /// One point at the deepest vertex.
 [[nodiscard]] Manifold support_manifold(const PolytopeFaceMeeting& meeting);
