@@ -1,6 +1,7 @@
 #include "core/collision/broad_phase/bounding_volume_tree.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -135,6 +136,50 @@ TEST(Bounds, RoundOutward) {
   EXPECT_EQ(round_up(x).raw, 6);
   EXPECT_EQ(round_down(-x).raw, -6);
   EXPECT_EQ(round_up(-x).raw, -5);
+}
+
+using BodyPair = std::pair<std::uint32_t, std::uint32_t>;
+
+std::vector<BodyPair> pairs_in(const BoundingVolumeTree& tree) {
+  std::vector<BodyPair> found;
+  EXPECT_TRUE(tree.visit_pairs([&](std::uint32_t body, std::uint32_t other) {
+    found.push_back(std::minmax(body, other));
+    return true;
+  }));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(BoundingVolumeTree, VisitsEachTwoLeavesThatMeetOnce) {
+  test::Random random;
+  for (std::uint32_t count = 0; count < 120; ++count) {
+    BoundingVolumeTree tree(count);
+    std::vector<Bounds> bounds;
+    std::vector<Layers> layers;
+    std::vector<BoundingVolumeTree::Item> items;
+    const bool at_once = random.between(0, 1) != 0;
+    for (std::uint32_t body = 0; body < count; ++body) {
+      bounds.push_back(random_bounds(random, 4000, 3000));
+      const auto bits = [&] { return static_cast<std::uint32_t>(random.between(1, 3)); };
+      const std::uint32_t categories = bits();
+      layers.push_back({categories, bits(), random.between(0, 20) == 0});
+      if (at_once)
+        items.push_back(tree.make_leaf(bounds[body], layers[body], body));
+      else
+        (void)tree.insert(bounds[body], layers[body], body);
+    }
+    if (at_once) tree.build(items);
+    std::vector<BodyPair> expected;
+    for (std::uint32_t i = 0; i < count; ++i)
+      for (std::uint32_t j = i + 1; j < count; ++j)
+        if (overlap(bounds[i], bounds[j]) && may_collide(layers[i], layers[j]))
+          expected.emplace_back(i, j);
+    ASSERT_EQ(pairs_in(tree), expected) << count;
+    if (expected.size() < 2) continue;
+    int visited = 0;
+    EXPECT_FALSE(tree.visit_pairs([&](std::uint32_t, std::uint32_t) { return ++visited < 2; }));
+    EXPECT_EQ(visited, 2);
+  }
 }
 
 }  // namespace

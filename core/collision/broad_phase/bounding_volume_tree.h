@@ -55,6 +55,36 @@ class BoundingVolumeTree {
     }
   }
 
+  /// Calls `visit(body, other)` once for every two leaves whose bounds overlap and whose layers may
+  /// collide, in no promised order. Stops when it returns false, and returns that.
+  template <class Visit>
+  bool visit_pairs(Visit&& visit) const {
+    NodePair stack[k_pair_stack_capacity];
+    int size = 0;
+    if (root_ != k_null) stack[size++] = {root_, root_};
+    while (size > 0) {
+      const NodePair at = stack[--size];
+      const Node& one = nodes_[at.one];
+      const Node& other = nodes_[at.other];
+      LKS_CHECK(size + 3 <= k_pair_stack_capacity);
+      if (at.one == at.other) {
+        if (one.is_leaf()) continue;
+        stack[size++] = {one.child[0], one.child[0]};
+        stack[size++] = {one.child[1], one.child[1]};
+        push_if_close(stack, size, one.child[0], one.child[1]);
+      } else if (one.is_leaf() && other.is_leaf()) {
+        if (!visit(one.body(), other.body())) return false;
+      } else if (one.height >= other.height) {
+        push_if_close(stack, size, one.child[0], at.other);
+        push_if_close(stack, size, one.child[1], at.other);
+      } else {
+        push_if_close(stack, size, at.one, other.child[0]);
+        push_if_close(stack, size, at.one, other.child[1]);
+      }
+    }
+    return true;
+  }
+
   /// Height of the tree, 0 when empty or a single leaf.
   [[nodiscard]] int height() const;
 
@@ -64,6 +94,8 @@ class BoundingVolumeTree {
  private:
   // Rotations keep the tree near balance; 2^20 leaves stay far below this depth.
   static constexpr int k_stack_capacity = 256;
+  // A step down leaves two pairs at most, and goes down one of two paths.
+  static constexpr int k_pair_stack_capacity = 4 * k_stack_capacity;
 
   struct Node {
     Bounds bounds;
@@ -75,6 +107,18 @@ class BoundingVolumeTree {
     [[nodiscard]] bool is_leaf() const { return child[0] == k_null; }
     [[nodiscard]] std::uint32_t body() const { return child[1]; }
   };
+
+  struct NodePair {
+    std::uint32_t one = k_null;
+    std::uint32_t other = k_null;
+  };
+
+  void push_if_close(NodePair* stack, int& size, std::uint32_t one, std::uint32_t other) const {
+    const Node& a = nodes_[one];
+    const Node& b = nodes_[other];
+    if (overlap(a.bounds, b.bounds) && may_collide(a.layers, b.layers))
+      stack[size++] = {one, other};
+  }
 
   std::uint32_t build_below(std::span<Item> items);
   std::uint32_t allocate();

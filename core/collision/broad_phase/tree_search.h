@@ -43,6 +43,8 @@ class TreeSearch {
   template <class Emit>
   bool search(std::span<const std::uint32_t> touched, std::span<const Proxy> proxies,
               std::span<const std::uint8_t> is_touched, Emit&& emit) const {
+    const bool many = touched.size() > leaves_[1] / 2;
+    if (many && !search_dynamic(is_touched, emit)) return false;
     bool goes_on = true;
     for (const std::uint32_t body : touched) {
       const Proxy& proxy = proxies[body];
@@ -56,8 +58,8 @@ class TreeSearch {
         const bool others = is_touched[other] != 0 && other <= body;
         if (!others) goes_on = goes_on && emit(body, other);
       };
-      for (const BoundingVolumeTree& tree : trees_)
-        tree.traverse(test, visit);
+      trees_[0].traverse(test, visit);
+      if (!many || !proxy.traits.is_dynamic) trees_[1].traverse(test, visit);
     }
     return goes_on;
   }
@@ -83,6 +85,15 @@ class TreeSearch {
  private:
   static constexpr std::uint32_t k_null = BoundingVolumeTree::k_null;
   using Counts = std::array<std::uint32_t, 2>;  // of bodies, by tree
+
+  // The pairs of two dynamic bodies, all at once: each is met once, and one way down the tree
+  // serves many bodies. With as many touched as not it takes as long as a search for each.
+  template <class Emit>
+  bool search_dynamic(std::span<const std::uint8_t> is_touched, Emit&& emit) const {
+    return trees_[1].visit_pairs([&](std::uint32_t body, std::uint32_t other) {
+      return (is_touched[body] | is_touched[other]) == 0 || emit(body, other);
+    });
+  }
 
   // Where a body's leaf is. That of a body that waits, if it has one, is out of date.
   struct Place {
