@@ -12,7 +12,6 @@ findings", with the number of tests that ran; the status is 3 when there is a fi
 """
 
 import argparse
-import heapq
 import json
 import os
 import random
@@ -40,6 +39,7 @@ class Test:
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
         self.folder = properties.get("WORKING_DIRECTORY") or os.getcwd()
         self.environment = dict(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))
+        self.seconds = seconds
         self.longest = longest + 10 * seconds
         self.spent = 0.0
 
@@ -82,12 +82,15 @@ class Exploration:
         self.runs = self.tried = self.findings = 0
 
     def next(self):
-        """The test that has run for the shortest time, and a seed of its own; None at the end, after one run
-        at least."""
+        """Of the tests that may end in time the one that has run for the shortest time, and a seed of its own;
+        None if there is none, after one run at least."""
         with self.lock:
-            if not self.queue or (time.monotonic() >= self.end and self.runs > 0):
+            left = self.end - time.monotonic()
+            in_time = [entry for entry in self.queue if entry[2].seconds < left or self.runs == 0]
+            if not in_time:
                 return None
-            spent, index, test = heapq.heappop(self.queue)
+            spent, index, test = min(in_time)
+            self.queue.remove((spent, index, test))
             self.seed += 1
             self.runs += 1
             self.tried += spent == 0
@@ -96,7 +99,7 @@ class Exploration:
     def report(self, index, test, seed, failure):
         with self.lock:
             if failure is None:
-                heapq.heappush(self.queue, (test.spent, index, test))
+                self.queue.append((test.spent, index, test))
                 return
             self.findings += 1
             how, lines = failure

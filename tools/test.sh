@@ -48,7 +48,8 @@ run_tests() {
   local report=$root/build/$1/tests.xml
   rm -f "$report"
   say "test $1"
-  ctest --preset "$1" --parallel "$((jobs + 1))" --output-junit "$report" || true
+  ctest --preset "$1" --parallel "$((jobs + 1))" --output-junit "$report" \
+    --test-output-size-passed 1000000 --test-output-size-failed 1000000 || true
   [[ -s $report ]] || die "ctest ran no test of the preset $1"
   count "$report" "$1"
 }

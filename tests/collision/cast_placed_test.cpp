@@ -14,6 +14,7 @@
 #include "core/collision/narrow_phase/pieces.h"
 #include "core/geometry/distance/motion/shape_cast.h"
 #include "tests/geometry/assets/asset_parts.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -165,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Assets, ManyPieces,
 TEST(CastPlaced, FindsThePathsBesideABoxThatACastOfThePiecesFinds) {
   Dice dice;
   int hits = 0, misses = 0;
-  for (int i = 0; i < 8000; ++i) {
+  for (int i = 0; i < test::share_of(8000); ++i) {
     const double width = std::exp2(dice.uniform(-3, 8)), height = std::exp2(dice.uniform(-3, 8));
     const PlacedShape target =
         placed(dice, Shape::box(metres(width), metres(height), metres(width)), nullptr, 2);
@@ -192,8 +193,8 @@ TEST(CastPlaced, FindsThePathsBesideABoxThatACastOfThePiecesFinds) {
     ASSERT_EQ(hit.normal, all.best.normal) << i;
     ASSERT_EQ(hit.point, all.best.point) << i;
   }
-  EXPECT_GT(hits, 500);
-  EXPECT_GT(misses, 1500);
+  EXPECT_GT(hits, test::share_of(500));
+  EXPECT_GT(misses, test::share_of(1500));
 }
 
 // The middle of the corner's bounds lies half a metre beyond its slanted face, and behind a

@@ -6,13 +6,14 @@
 
 #include "core/dynamics/problem/proximal_words.h"
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
 
 TEST(SmallProductSum, RoundsAsProductSumDoes) {
   test::Random random;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     ProductSum sum;
     SmallProductSum small;
     for (int k = 0; k < 3; ++k) {

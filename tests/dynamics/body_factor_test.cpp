@@ -13,6 +13,7 @@
 #include "core/dynamics/contact/row_scale.h"
 #include "core/dynamics/problem/proximal_rows.h"
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -184,7 +185,7 @@ TEST(BodyFactor, TellsWhenASolutionDoesNotFit) {
 
 TEST(RowScale, MultipliesAndInvertsWithinTwoStepsOfItsMantissa) {
   test::Random random;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const auto value = static_cast<std::uint64_t>(random.between(1, std::int64_t{1} << 60));
     const auto other = static_cast<std::uint64_t>(random.between(1, std::int64_t{1} << 60));
     const int shift = static_cast<int>(random.between(20, 80));
@@ -243,7 +244,7 @@ RealMatrix real(const InertiaRoot& root) {
 // C·Cᵀ = M.
 TEST(InertiaRoot, SquaredIsTheInertia) {
   test::Random random;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const RealMatrix m = random_inertia(random);
     const int exponent = static_cast<int>(random.between(0, 12));
     const RealMatrix square = times_transpose(real(inertia_root(raw_of(m, exponent))));

@@ -10,6 +10,7 @@
 
 #include "core/math/product_sum.h"
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -137,7 +138,7 @@ TEST(ProductSum, RoundsOnceAwayFromZeroAndStaysInItsBounds) {
 
 TEST(ProductSum, RoundsAlikeByAnyShift) {
   test::Random random(test::run_seed());
-  for (int i = 0; i < 200'000; ++i) {
+  for (int i = 0; i < test::share_of(200'000); ++i) {
     const int shift = static_cast<int>(random.between(1, 125));
     const auto any = [&] {
       return static_cast<std::int64_t>(random.next()) >> random.between(1, 63);

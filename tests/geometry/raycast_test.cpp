@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "tests/geometry/scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -102,7 +103,7 @@ Ray random_ray(Dice& dice, const Placed& shape, double reach) {
 template <class Check>
 void for_random_rays(Check check) {
   Dice dice;
-  for (int i = 0; i < 60000; ++i) {
+  for (int i = 0; i < test::share_of(60000); ++i) {
     const ShapeKind kind = k_all_kinds[static_cast<std::size_t>(i % 3)];
     const bool small = dice.chance(2);
     const Shape shape = dice.shape(kind, small ? 0.1 : 0.001, small ? 2 : 512);
@@ -248,7 +249,7 @@ TEST(CastRay, AlongACapsulesAxisMeetsTheCap) {
 
 TEST(CastRay, LanesOfFullRangeDoNotOverflow) {
   Dice dice;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const auto extreme = [&dice] {
       return metres(static_cast<double>(dice.between(-1, 1)) * 1448);
     };

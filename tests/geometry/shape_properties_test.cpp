@@ -1,6 +1,7 @@
 #include "core/geometry/convex/shape_properties.h"
 
 #include "tests/geometry/scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -44,7 +45,7 @@ RealVec inertia_of(const Shape& s) {
 template <class Check>
 void for_random_shapes(Check check) {
   Dice dice;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const ShapeKind kind = k_all_kinds[static_cast<std::size_t>(i % 3)];
     const Shape shape = dice.shape(kind, 0.001, 512);
     check(dice, shape);

@@ -138,7 +138,7 @@ Length random_size(Random& random) {
 
 TEST(PartBelow, OfABoxIsExact) {
   Random random(1);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const Shape box = Shape::box(random_size(random), random_size(random), random_size(random));
     Vec3<Unit> normal = random_direction(random);
     for (int axis = 0; axis < 3; ++axis)
@@ -153,7 +153,7 @@ TEST(PartBelow, OfABoxIsExact) {
 
 TEST(PartBelow, OfABallIsTheCap) {
   Random random(2);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const Shape ball = Shape::sphere(random_size(random));
     const Vec3<Unit> normal = random_direction(random);
     const Position offset = Position::from_ratio(random.between(-2100, 2100), 1000);
@@ -281,7 +281,7 @@ TEST(PartBelow, OfARoundedBoxIsNearlyThatOfItsPoints) {
 // A shadow grows by its circumference times the radius, and by a disc.
 TEST(Shadows, OfRoundedBoxesAreThoseOfTheirPlanAndRim) {
   Random random(10);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::share_of(1000); ++i) {
     const Length x = random_size(random), y = random_size(random), z = random_size(random);
     const Shape shape = Shape::rounded_box(x, y, z, random_size(random));
     const Vec3<Unit> n = random_direction(random);

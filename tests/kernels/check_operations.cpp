@@ -7,13 +7,14 @@
 #include "tests/kernels/check.h"
 #include "tests/kernels/operations.h"
 #include "tests/kernels/values.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::lanes::test {
 namespace {
 
 using lockstone::test::Random;
 
-constexpr int k_rounds = 40000;
+constexpr int k_rounds = lockstone::test::share_of(40000);
 
 struct Expected {
   std::int64_t value;

@@ -11,6 +11,7 @@
 #include "core/math/wide/scalar_lanes.h"
 #include "tests/kernels/check.h"
 #include "tests/kernels/values.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::lanes {
 namespace {
@@ -57,7 +58,7 @@ TEST(WideTargets, FewAreLeftToNarrowVectorsUnlessOneIsForced) {
 // The scalar twins are the meaning of the lanes; here they meet the rules of the whole project.
 TEST(ScalarLanes, RoundAsTheProjectDoes) {
   Random random;
-  for (int i = 0; i < 200'000; ++i) {
+  for (int i = 0; i < lockstone::test::share_of(200'000); ++i) {
     const std::int64_t x = test::word(random);
     const int shift = static_cast<int>(random.between(1, 32));
     EXPECT_EQ(scalar::low(scalar::round_shift_low(x, shift)),
@@ -68,7 +69,7 @@ TEST(ScalarLanes, RoundAsTheProjectDoes) {
 
 TEST(ScalarLanes, RoundWholeWordsAsTheProjectDoes) {
   Random random;
-  for (int i = 0; i < 200'000; ++i) {
+  for (int i = 0; i < lockstone::test::share_of(200'000); ++i) {
     const int shift = static_cast<int>(random.between(1, 62));
     const std::int64_t bound = INT64_MAX - (std::int64_t{1} << (shift - 1));
     const std::int64_t x = std::min(test::word(random), bound);
@@ -81,7 +82,7 @@ TEST(ScalarLanes, RoundWholeWordsAsTheProjectDoes) {
 // fewer.
 TEST(ScalarLanes, WithoutTheirSignHaveTheBitsOfTheirSizeOrOneFewer) {
   Random random;
-  for (int i = 0; i < 100'000; ++i) {
+  for (int i = 0; i < lockstone::test::share_of(100'000); ++i) {
     const std::int64_t x = test::word(random);
     const std::int64_t bits = scalar::without_sign(x);
     EXPECT_GE(bits, 0) << x;
@@ -91,7 +92,7 @@ TEST(ScalarLanes, WithoutTheirSignHaveTheBitsOfTheirSizeOrOneFewer) {
 
 TEST(ScalarLanes, KeepThePositivePartWithinItsRange) {
   Random random;
-  for (int i = 0; i < 200'000; ++i) {
+  for (int i = 0; i < lockstone::test::share_of(200'000); ++i) {
     const std::int64_t x = test::word(random) >> 1;  // below 2^62
     const std::int64_t rounded = raw::round_shift_any(x, 30);
     if (rounded >= std::int64_t{1} << 32) continue;
@@ -103,7 +104,7 @@ TEST(ScalarLanes, KeepThePositivePartWithinItsRange) {
 
 TEST(ScalarLanes, PackAndSplitOperands) {
   Random random;
-  for (int i = 0; i < 10'000; ++i) {
+  for (int i = 0; i < lockstone::test::share_of(10'000); ++i) {
     const std::int32_t low = test::operand(random), high = test::operand(random);
     const scalar::Lane packed = scalar::pack(low, high);
     EXPECT_EQ(scalar::low(packed), low);

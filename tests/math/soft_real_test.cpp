@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -29,7 +30,7 @@ TEST(SoftReal, HasNormalMantissasOrIsZero) {
 
 TEST(SoftReal, AddsMultipliesDividesAndTakesRoots) {
   test::Random random(1);
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const SoftReal a = random_soft(random), b = random_soft(random);
     const long double x = value(a), y = value(b), tiny = std::ldexp(1.0L, -60);
     const long double most = std::max(std::fabs(x), std::fabs(y));

@@ -108,7 +108,7 @@ std::vector<std::string> names() {
   return result;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, HistoryScenes, ::testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(All, HistoryScenes, ::testing::ValuesIn(test::share_of_cases(names())),
                          test::parameter_name);
 
 }  // namespace

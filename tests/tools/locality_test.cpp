@@ -212,8 +212,8 @@ TEST_P(EverySceneBesideOthers, GoesTheWayItGoesAlone) {
   EXPECT_NO_FATAL_FAILURE(expect_alike(scene, others, Order::last, k_ticks));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneBesideOthers, ::testing::ValuesIn(names()),
-                         test::parameter_name);
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneBesideOthers,
+                         ::testing::ValuesIn(test::share_of_cases(names())), test::parameter_name);
 
 // A scene that is built at a place, and a hash of its bodies, seen from that place, of each tick.
 struct Member {

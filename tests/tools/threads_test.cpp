@@ -70,8 +70,8 @@ TEST_P(EverySceneOnThreads, ComesOutTheSameInAnyOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneOnThreads, ::testing::ValuesIn(names()),
-                         test::parameter_name);
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneOnThreads,
+                         ::testing::ValuesIn(test::share_of_cases(names())), test::parameter_name);
 
 TEST(Threads, ComeAndGoWhileASceneRuns) {
   const Record alone = record_of("pile", nullptr);

@@ -50,14 +50,18 @@ endfunction()
 # lockstone_compile_at(TARGET LEVEL source…): compiles files of core with the option LEVEL, if it is not empty.
 # A file that was given a level before keeps it. CMake does not unite files with options of their own, so
 # where LOCKSTONE_UNITY_BUILD is SESSION this function does: up to sixteen files with the same level, of
-# the room collision or dynamics or of one folder of world (vehicles, queries, the rollback history), which
-# programs link as a whole or not at all. It leaves those of which programs link single files.
+# the room collision or dynamics or of one folder of world. It leaves base, math, the kernels, geometry and
+# the commands, of which a program links those that it names.
 function(lockstone_compile_at target level)
   set(sources ${ARGN})
   foreach(source IN LISTS sources)
     get_source_file_property(placed ${source} LOCKSTONE_PLACED)
+    get_source_file_property(alone ${source} SKIP_UNITY_BUILD_INCLUSION)
     if(placed)
       list(REMOVE_ITEM sources ${source})
+    elseif(alone)
+      list(REMOVE_ITEM sources ${source})
+      set_source_files_properties(${source} PROPERTIES LOCKSTONE_PLACED ON COMPILE_OPTIONS "${level}")
     endif()
   endforeach()
   set_source_files_properties(${sources} PROPERTIES LOCKSTONE_PLACED ON COMPILE_OPTIONS "${level}")
@@ -65,13 +69,13 @@ function(lockstone_compile_at target level)
     return()
   endif()
   set(folders ${sources})
-  list(FILTER folders INCLUDE REGEX "^world/.*/")
-  list(FILTER folders EXCLUDE REGEX "^world/(commands|state|phases)/[^/]*$")
+  list(FILTER folders INCLUDE REGEX "^world/")
+  list(FILTER folders EXCLUDE REGEX "^world/commands/")
   list(TRANSFORM folders REPLACE "/[^/]*$" "")
   list(REMOVE_DUPLICATES folders)
   foreach(folder IN ITEMS collision dynamics LISTS folders)
     set(rest ${sources})
-    if(folder MATCHES "^world")
+    if(folder MATCHES "/|^world$")
       list(FILTER rest INCLUDE REGEX "^${folder}/[^/]*$")
     else()
       list(FILTER rest INCLUDE REGEX "^${folder}/")

@@ -9,6 +9,7 @@
 #include "core/geometry/numeric/exact_plane.h"
 #include "core/math/predicates.h"
 #include "tests/geometry/assets/hull_clouds.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -116,7 +117,7 @@ Fine default_tolerance(const geometry::LocalBounds& bounds) {
 TEST(ExactPlane, HasTheSidesOfThePredicate) {
   Dice dice;
   int on = 0;
-  for (int i = 0; i < 50000; ++i) {
+  for (int i = 0; i < test::share_of(50000); ++i) {
     const std::int64_t range = std::int64_t{1} << dice.between(1, 29);
     std::array<Vec3<Length>, 4> p;
     for (Vec3<Length>& v : p)
@@ -384,7 +385,7 @@ TEST(HullBytes, AreNeverTrusted) {
   longer.push_back({});
   EXPECT_EQ(Hull::from_bytes(longer).status(), Status::malformed);
   int accepted = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::share_of(3000); ++i) {
     std::vector<std::byte> bytes = good;
     for (int flips = static_cast<int>(dice.between(1, 3)); flips > 0; --flips)
       bytes[dice.next() % bytes.size()] ^= std::byte{1} << dice.between(0, 7);
@@ -399,7 +400,7 @@ TEST(HullBytes, AreNeverTrusted) {
 
 TEST(HullBytes, OfRandomVerticesNeverCrash) {
   Dice dice;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const auto count = static_cast<std::size_t>(dice.between(0, 20));
     std::vector<std::byte> bytes(14 + 12 * count);
     ByteWriter writer(bytes);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/geometry/assets/asset_parts.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -82,7 +83,7 @@ TEST(StaticTree, MissesNoBoxThatARayMeets) {
   const StaticTree tree = StaticTree::build(given, order);
   const auto boxes = renumbered(given, order);
   int met = 0;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < test::share_of(500); ++i) {
     const Vec3<Length> origin = random_region(dice, 100, 0.1).lower;
     Vec3<Length> way = random_region(dice, 200, 0.1).lower;
     if (dice.chance(4)) way.x = {};
@@ -100,7 +101,7 @@ TEST(StaticTree, MissesNoBoxThatARayMeets) {
       ASSERT_TRUE(found[k] || !meets);
     }
   }
-  EXPECT_GE(met, 250);  // every second ray meets the box that it is aimed at
+  EXPECT_GE(met, test::share_of(250));  // every second ray meets the box that it is aimed at
 }
 
 TEST(StaticTree, AsksForNothingBeyondAShortenedRay) {
@@ -141,7 +142,7 @@ TEST(StaticTree, BoundsItsDepthWhereSizesGrowGeometrically) {
 
 TEST(RayWindow, AnswersTheFractionWhereTheRayEnters) {
   Dice dice;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const LocalBounds box = random_region(dice, 900, 90);
     const Vec3<Length> origin = random_region(dice, 1400, 0.1).lower;
     const Vec3<Length> way = random_region(dice, 1400, 0.1).lower;

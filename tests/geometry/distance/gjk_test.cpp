@@ -2,6 +2,7 @@
 #include "core/geometry/distance/gjk/gjk.h"
 
 #include "tests/geometry/pairs/convex_scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -146,7 +147,7 @@ TEST(Distance, OfConcentricAndNestedShapesIsOverlap) {
 
 TEST(Distance, OfACrumbBesideAGiantIsExactToTheMicrometre) {
   Dice dice;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < test::share_of(500); ++i) {
     ConvexPair pair = random_pair(dice, 2, static_cast<int>(dice.between(0, 5)), 0.001, 0.002);
     pair.a = convex(Shape::box(metres(500), metres(500), metres(500)), pair.a.rotation);
     // Over the middle of the face that A's x axis leaves by.
@@ -163,7 +164,7 @@ TEST(Distance, OfACrumbBesideAGiantIsExactToTheMicrometre) {
 TEST(Distance, OfSliversProvesItself) {
   Dice dice;
   int apart = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     // Nearly flat and nearly straight: two lengths of micrometres to metres.
     const auto sliver = [&dice] {
       std::vector<Vec3<Length>> vertices;

@@ -3,6 +3,7 @@
 
 #include "core/geometry/distance/epa/epa.h"
 #include "tests/geometry/pairs/convex_scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -83,7 +84,7 @@ TEST(ShapeCast, SwappingTheShapesMirrorsTheHitBitForBit) {
 
 TEST(ShapeCast, OfASphereIsTheRootOfAQuadratic) {
   Dice dice;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     Convex a = convex(Shape::sphere(dice.size(0.01, 10)));
     Convex b = convex(Shape::sphere(dice.size(0.01, 10)));
     const Real reach = real(a.shape.size.x) + real(b.shape.size.x);

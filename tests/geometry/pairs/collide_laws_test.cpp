@@ -2,11 +2,12 @@
 #include <set>
 
 #include "tests/geometry/scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
 
-constexpr int k_scenes = 4000;
+constexpr int k_scenes = test::share_of(4000);
 
 bool is_pair_of(const Scene& scene, ShapeKind kind) {
   return scene.a.kind == kind && scene.b.kind == kind;

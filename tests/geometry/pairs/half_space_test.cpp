@@ -39,7 +39,7 @@ struct PlaneScene {
 template <class Check>
 void for_random_planes(Check check) {
   Dice dice;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < test::share_of(4000); ++i) {
     PlaneScene scene;
     const ShapeKind kind = k_kinds_beside_hulls[static_cast<std::size_t>(i % 4)];
     const double size = std::exp(dice.uniform(std::log(0.01), std::log(400)));

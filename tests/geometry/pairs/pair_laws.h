@@ -109,7 +109,7 @@ inline void expect_contacts_at_least_separation(RandomPair random_pair, int pair
 inline void expect_casts_end_where_shapes_touch(RandomPair random_pair) {
   Dice dice;
   int hits = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const ReachPair pair = random_pair(dice, 1.5, 3);
     const Vec3<Length> way = metres(real(pair.offset) * -1 + dice.direction() * 0.3L);
     const ShapeCastHit hit =
@@ -120,7 +120,7 @@ inline void expect_casts_end_where_shapes_touch(RandomPair random_pair) {
     there.offset = metres(real(pair.offset) + real(way) * real(hit.fraction));
     ASSERT_NEAR(static_cast<double>(there.separation(real(hit.normal))), 0, 6e-6) << pair.text();
   }
-  EXPECT_GT(hits, 500);
+  EXPECT_GT(hits, test::share_of(500));
 }
 
 using RandomShape = Shape (*)(Dice& dice, double low, double high);

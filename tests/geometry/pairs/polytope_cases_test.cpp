@@ -5,6 +5,7 @@
 #include "core/geometry/convex/polytope_box.h"
 #include "tests/geometry/pairs/clipped_face.h"
 #include "tests/geometry/pairs/polytope_scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -260,7 +261,7 @@ TEST_F(OneSided, IgnoresBodiesWithTheirCentreBehind) {
 TEST_F(OneSided, NeverPushesBackward) {
   Dice dice;
   int met = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const auto triangle = random_triangle(dice, 2, true);
     const PosedShape skin{hull(0), to_matrix(dice.orientation()), &triangle->view()};
     const Body& body = bodies_[static_cast<std::size_t>(i) % bodies_.size()];
@@ -278,7 +279,7 @@ TEST_F(OneSided, NeverPushesBackward) {
       ASSERT_LT(static_cast<double>(truth), 1e-5);
     }
   }
-  EXPECT_GT(met, 1000);
+  EXPECT_GT(met, test::share_of(1000));
 }
 
 TEST_F(OneSided, ATwoSidedOnePushesToEitherSide) {

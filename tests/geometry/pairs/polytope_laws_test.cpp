@@ -1,11 +1,12 @@
 // Laws that every pair with a polytope obeys, over random scenes of all sizes.
 #include "core/geometry/distance/separation.h"
 #include "tests/geometry/pairs/polytope_scene.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
 
-constexpr int k_polytope_scenes = 300;
+constexpr int k_polytope_scenes = test::share_of(300);
 
 Real tolerance(const PolytopeScene& scene) {
   return 2 * k_micrometre + scene.scale() * 4e-9L;
@@ -95,7 +96,7 @@ TEST(CollidePolytope, SwappingTheShapesFlipsTheManifoldBitForBit) {
 
 TEST(CollidePolytope, SwappingTwoOfOneAssetFlipsTheManifoldBitForBit) {
   Dice dice;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const auto polytope = random_polytope(dice, 1);
     if (geometry::is_flat(polytope->view())) continue;
     const Shape shape{ShapeKind::hull, {}, {5}};

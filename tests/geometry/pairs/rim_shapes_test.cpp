@@ -2,6 +2,7 @@
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/dispatch/raycast.h"
 #include "tests/geometry/pairs/pair_laws.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -19,7 +20,7 @@ Shape random_rim_shape(Dice& dice, double low, double high) {
 
 TEST(RimShapes, HaveTheMassOfTheClosedForm) {
   Dice dice;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < test::share_of(10000); ++i) {
     const Shape shape = random_rim_shape(dice, 0.001, 512);
     const Real r = real(shape.size.x), y = real(shape.size.y);
     const Real volume = k_real_pi * r * r * (shape.kind == ShapeKind::cone ? y / 3 : 2 * y);
@@ -34,7 +35,7 @@ TEST(RimShapes, HaveTheMassOfTheClosedForm) {
 
 TEST(RimShapes, HaveTheInertiaOfTheClosedForm) {
   Dice dice;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < test::share_of(10000); ++i) {
     const Shape shape = random_rim_shape(dice, 0.001, 512);
     const Real r = real(shape.size.x), y = real(shape.size.y);
     const bool cone = shape.kind == ShapeKind::cone;
@@ -53,7 +54,7 @@ TEST(RimShapes, HaveTheInertiaOfTheClosedForm) {
 
 TEST(RimShapes, LieBetweenTheirRadii) {
   Dice dice;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < test::share_of(10000); ++i) {
     const Shape shape = random_rim_shape(dice, 0.001, 512);
     const RealVec n = dice.direction();
     const Real reach = RealRims(shape).reach(n);
@@ -64,7 +65,7 @@ TEST(RimShapes, LieBetweenTheirRadii) {
 
 TEST(RimShapes, AreWithinTheirBoundsAndNearlyTouchThem) {
   Dice dice;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < test::share_of(10000); ++i) {
     const Shape shape = random_rim_shape(dice, 0.001, 512);
     const Mat3 rotation = to_matrix(dice.orientation());
     const RealVec found = real(world_half_extents(shape, rotation));
@@ -109,7 +110,7 @@ struct RimRay {
 
 TEST(RimShapes, RaysThatMissStayOutside) {
   Dice dice;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const RimRay ray(dice);
     for (int k = 0; k <= 64 && !ray.hit.hit; ++k)
       ASSERT_GT(ray.rims.beyond(ray.at(Real{1} * k / 64)), -ray.slack) << describe(ray.shape);
@@ -119,7 +120,7 @@ TEST(RimShapes, RaysThatMissStayOutside) {
 TEST(RimShapes, RaysEnterWhereTheSurfaceIs) {
   Dice dice;
   int hits = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const RimRay ray(dice);
     if (!ray.hit.hit) continue;
     ++hits;
@@ -133,12 +134,12 @@ TEST(RimShapes, RaysEnterWhereTheSurfaceIs) {
     for (int k = 0; k < 32; ++k)
       ASSERT_GT(ray.rims.beyond(ray.at(f * k / 32)), -ray.slack) << describe(ray.shape);
   }
-  EXPECT_GT(hits, 5000);
+  EXPECT_GT(hits, test::share_of(5000));
 }
 
 TEST(RimShapes, NormalsOfRaysAreThoseOfAPlaneThatTheShapeLiesBelow) {
   Dice dice;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const RimRay ray(dice);
     if (!ray.hit.hit || ray.begins_inside()) continue;
     const Real height = dot(ray.normal, ray.at(ray.fraction()));
@@ -149,7 +150,7 @@ TEST(RimShapes, NormalsOfRaysAreThoseOfAPlaneThatTheShapeLiesBelow) {
 // Also along the axis, where no side is nearer than the others.
 TEST(RimShapes, FacesHaveUnitNormals) {
   Dice dice;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::share_of(2000); ++i) {
     const Shape shape = random_rim_shape(dice, 0.05, 20);
     const auto is_unit = [&](const Vec3<Unit>& axis) {
       return geometry::is_unit(geometry::traits_of(shape).face_along(shape, axis));

@@ -2,6 +2,7 @@
 #include "core/geometry/convex/compound_solid.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "tests/geometry/pairs/pair_laws.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -16,7 +17,7 @@ Shape random_rounded(Dice& dice, double low, double high) {
 
 TEST(RoundedBoxes, HaveTheMassOfTheIntegral) {
   Dice dice;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::share_of(3000); ++i) {
     const Shape shape = random_rounded(dice, 0.001, 200);
     ASSERT_EQ(validate(shape), Status::ok);
     const Real volume = RealRounded(shape).volume();
@@ -35,7 +36,7 @@ TEST(RoundedBoxes, HaveTheMassOfTheIntegral) {
 
 TEST(RoundedBoxes, HaveTheInertiaOfTheIntegral) {
   Dice dice;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::share_of(3000); ++i) {
     const Shape shape = random_rounded(dice, 0.001, 300);
     const RealRounded truth(shape);
     const Real volume = truth.volume(), x = truth.square(0), y = truth.square(1),
@@ -80,7 +81,7 @@ TEST(RoundedBoxes, AreRefusedWhereTheyReachBeyondTheLargestSize) {
 
 TEST(RoundedBoxes, LieBetweenTheirRadiiAndWithinTheirBounds) {
   Dice dice;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < test::share_of(10000); ++i) {
     const Shape shape = random_rounded(dice, 0.001, 300);
     const RealRounded truth(shape);
     const Mat3 rotation = to_matrix(dice.orientation());
@@ -102,7 +103,7 @@ TEST(RoundedBoxes, LieBetweenTheirRadiiAndWithinTheirBounds) {
 TEST(RoundedBoxes, HoldThePointsWithinTheirSurface) {
   Dice dice;
   int inside = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const Shape shape = random_rounded(dice, 0.05, 20);
     const RealVec at = dice.direction() *
                        (real(bounding_radius(shape)) * static_cast<Real>(dice.uniform(0.2, 1.1)));
@@ -113,12 +114,12 @@ TEST(RoundedBoxes, HoldThePointsWithinTheirSurface) {
     ASSERT_EQ(held, out < real(slack)) << describe(shape);
     inside += held ? 1 : 0;
   }
-  EXPECT_GT(inside, 5000);
+  EXPECT_GT(inside, test::share_of(5000));
 }
 
 TEST(RoundedBoxes, ShrinkBelowTheirSurface) {
   Dice dice;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < test::share_of(5000); ++i) {
     const Shape shape = random_rounded(dice, 0.05, 5);
     const Real share = static_cast<Real>(dice.uniform(0.05, 0.95));
     const Length depth = metres(static_cast<double>(real(inner_radius(shape)) * share));

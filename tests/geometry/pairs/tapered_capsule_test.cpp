@@ -2,6 +2,7 @@
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/motion/time_of_impact.h"
 #include "tests/geometry/pairs/pair_laws.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -14,7 +15,7 @@ Shape random_taper(Dice& dice, double low, double high) {
 
 TEST(TaperedCapsules, HaveTheMassOfTheIntegral) {
   Dice dice;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < test::share_of(10000); ++i) {
     const Shape shape = random_taper(dice, 0.001, 512);
     const Real volume = k_real_pi * RealTaper(shape).integral([](Real rr, Real) { return rr; });
     const Density density = Density::from_raw(static_cast<std::int32_t>(dice.between(1, 1 << 22)));
@@ -28,7 +29,7 @@ TEST(TaperedCapsules, HaveTheMassOfTheIntegral) {
 
 TEST(TaperedCapsules, HaveTheInertiaOfTheIntegral) {
   Dice dice;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < test::share_of(10000); ++i) {
     const Shape shape = random_taper(dice, 0.001, 512);
     const RealTaper truth(shape);
     const Real mass = truth.integral([](Real rr, Real) { return rr; });
@@ -48,7 +49,7 @@ TEST(TaperedCapsules, HaveTheInertiaOfTheIntegral) {
 
 TEST(TaperedCapsules, OfTwoEqualBallsAreCapsulesAndOfNestedOnesBalls) {
   Dice dice;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::share_of(1000); ++i) {
     const Length r = dice.size(0.01, 50), h = dice.size(0.01, 50);
     const Density density = Density::from_integer(1000);
     const Shape even = Shape::tapered_capsule(h + h, r, r), capsule = Shape::capsule(h, r);
@@ -63,7 +64,7 @@ TEST(TaperedCapsules, OfTwoEqualBallsAreCapsulesAndOfNestedOnesBalls) {
 
 TEST(TaperedCapsules, LieBetweenTheirRadiiAndWithinTheirBounds) {
   Dice dice;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < test::share_of(10000); ++i) {
     const Shape shape = random_taper(dice, 0.001, 512);
     const RealTaper truth(shape);
     const Mat3 rotation = to_matrix(dice.orientation());
@@ -173,7 +174,7 @@ TEST(TaperedCapsules, AlongAFaceTouchItWithTheirSide) {
   const Mat3 upright;
   Dice dice;
   int beside = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < test::share_of(6000); ++i) {
     const double size = std::exp(dice.uniform(std::log(0.1), std::log(60)));
     const double x = size * dice.uniform(0.3, 1), y = size * dice.uniform(0.3, 1),
                  z = size * dice.uniform(0.3, 1);
@@ -193,7 +194,7 @@ TEST(TaperedCapsules, AlongAFaceTouchItWithTheirSide) {
       ++beside;
     }
   }
-  EXPECT_GT(beside, 4000);
+  EXPECT_GT(beside, test::share_of(4000));
 }
 
 // A turning club that swings past: up to its time of impact the distance is not less than the
@@ -201,7 +202,7 @@ TEST(TaperedCapsules, AlongAFaceTouchItWithTheirSide) {
 TEST(TaperedCapsules, ReachTheirTimeOfImpactApart) {
   Dice dice;
   int hits = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < test::share_of(600); ++i) {
     ReachPair pair = random_taper_pair(dice, 1.1, 2.5);
     const auto sweep = [&](const Quat& turned, const RealVec& at, const RealVec& way) {
       Sweep s;
@@ -236,7 +237,7 @@ TEST(TaperedCapsules, ReachTheirTimeOfImpactApart) {
       ASSERT_GT(as_double(gap.distance), 0.001 - 1e-5) << pair.text();
     }
   }
-  EXPECT_GT(hits, 150);
+  EXPECT_GT(hits, test::share_of(150));
 }
 
 }  // namespace
