@@ -38,10 +38,12 @@ def outcomes(case):
 
 
 def shown(output):
-    """Of a GoogleTest program the failed tests alone, of anything else the end."""
+    """Of a GoogleTest program that came to its end the failed tests alone; of any other, and of anything else, the
+    end too."""
     failed = re.findall(r"^\[ RUN {6}\] (\S+).*\n((?:(?!\[ RUN).*\n)*?\[  FAILED  \] \1.*)$", output, re.MULTILINE)
-    lines = [line for name, rest in failed for line in (name, *rest.splitlines())]
-    return lines[:SHOWN_LINES] or output.splitlines()[-SHOWN_LINES:]
+    lines = [line for name, rest in failed for line in (name, *rest.splitlines())][:SHOWN_LINES]
+    ended = re.search(r"^\[={10}\] .* ran\.", output, re.MULTILINE)
+    return lines if lines and ended else lines + output.splitlines()[-SHOWN_LINES:]
 
 
 def main(report, title, failures):
