@@ -1,5 +1,4 @@
-// How much of a long test runs: all of it, or with sanitizers, which take ten times as long, a
-// part.
+// How much of a long test runs: all of it, or with sanitizers, ten times as slow, a part.
 #pragma once
 
 #include <cstddef>

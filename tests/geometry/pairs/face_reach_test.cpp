@@ -2,6 +2,7 @@
 // manifolds; and the shortest mean of normals, against means in floating point.
 #include "core/geometry/contact/polytope/face_reach.h"
 
+#include "core/geometry/mesh_contact/mesh_contacts.h"
 #include "tests/geometry/pairs/polytope_scene.h"
 #include "tests/support/workload.h"
 
@@ -22,14 +23,6 @@ Fine height_drawn(Dice& dice, Fine at, double scale) {
   return at + static_cast<Fine>(std::ldexp(dice.uniform(-scale, scale), geometry::k_fine_bits));
 }
 
-Fine lowest_of(const Manifold& manifold) {
-  Fine lowest = geometry::k_any_separation;
-  for (int i = 0; i < manifold.count; ++i)
-    lowest =
-        std::min(lowest, geometry::fine(manifold.points[static_cast<std::size_t>(i)].separation));
-  return lowest;
-}
-
 /// A face of A that is left out has no point that is low enough.
 void expect_none_hidden(Dice& dice, const PolytopeScene& scene, int& hidden, int& clipped) {
   const Polytope& a = scene.polytope_a->view();
@@ -45,7 +38,7 @@ void expect_none_hidden(Dice& dice, const PolytopeScene& scene, int& hidden, int
         pair.from_a, scene.offset, k_margin, {face, deepest.vertex, separation}, false, {}};
     const Manifold whole = geometry::face_manifold(meeting);
     if (whole.count == 0) continue;
-    const Fine lowest = lowest_of(whole);
+    const Fine lowest = geometry::fine(geometry::least_separation(whole));
     const Fine highest = height_drawn(dice, lowest, static_cast<double>(scene.scale()));
     const Manifold limited = geometry::face_manifold(meeting, highest);
     ++clipped;
