@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/unset_array.h"
 #include "core/collision/broad_phase/bounds.h"
 #include "core/collision/broad_phase/proxy.h"
 
@@ -59,9 +60,15 @@ class BoundingVolumeTree {
   /// collide, in no promised order. Stops when it returns false, and returns that.
   template <class Visit>
   bool visit_pairs(Visit&& visit) const {
-    NodePair stack[k_pair_stack_capacity];
-    int size = 0;
-    if (root_ != k_null) stack[size++] = {root_, root_};
+    UnsetArray<NodePair, k_pair_stack_capacity> stack;
+    std::size_t size = 0;
+    const auto push = [&](std::uint32_t a, std::uint32_t b) { stack[size++] = {a, b}; };
+    const auto push_if_close = [&](std::uint32_t a, std::uint32_t b) {
+      const Node& one = nodes_[a];
+      const Node& other = nodes_[b];
+      if (overlap(one.bounds, other.bounds) && may_collide(one.layers, other.layers)) push(a, b);
+    };
+    if (root_ != k_null) push(root_, root_);
     while (size > 0) {
       const NodePair at = stack[--size];
       const Node& one = nodes_[at.one];
@@ -69,17 +76,17 @@ class BoundingVolumeTree {
       LKS_CHECK(size + 3 <= k_pair_stack_capacity);
       if (at.one == at.other) {
         if (one.is_leaf()) continue;
-        stack[size++] = {one.child[0], one.child[0]};
-        stack[size++] = {one.child[1], one.child[1]};
-        push_if_close(stack, size, one.child[0], one.child[1]);
+        push(one.child[0], one.child[0]);
+        push(one.child[1], one.child[1]);
+        push_if_close(one.child[0], one.child[1]);
       } else if (one.is_leaf() && other.is_leaf()) {
         if (!visit(one.body(), other.body())) return false;
       } else if (one.height >= other.height) {
-        push_if_close(stack, size, one.child[0], at.other);
-        push_if_close(stack, size, one.child[1], at.other);
+        push_if_close(one.child[0], at.other);
+        push_if_close(one.child[1], at.other);
       } else {
-        push_if_close(stack, size, at.one, other.child[0]);
-        push_if_close(stack, size, at.one, other.child[1]);
+        push_if_close(at.one, other.child[0]);
+        push_if_close(at.one, other.child[1]);
       }
     }
     return true;
@@ -94,8 +101,8 @@ class BoundingVolumeTree {
  private:
   // Rotations keep the tree near balance; 2^20 leaves stay far below this depth.
   static constexpr int k_stack_capacity = 256;
-  // A step down leaves two pairs at most, and goes down one of two paths.
-  static constexpr int k_pair_stack_capacity = 4 * k_stack_capacity;
+  // A pair gives way to three at most, one level lower in one of the two nodes.
+  static constexpr std::size_t k_pair_stack_capacity = 4 * k_stack_capacity;
 
   struct Node {
     Bounds bounds;
@@ -112,13 +119,6 @@ class BoundingVolumeTree {
     std::uint32_t one = k_null;
     std::uint32_t other = k_null;
   };
-
-  void push_if_close(NodePair* stack, int& size, std::uint32_t one, std::uint32_t other) const {
-    const Node& a = nodes_[one];
-    const Node& b = nodes_[other];
-    if (overlap(a.bounds, b.bounds) && may_collide(a.layers, b.layers))
-      stack[size++] = {one, other};
-  }
 
   std::uint32_t build_below(std::span<Item> items);
   std::uint32_t allocate();
