@@ -49,35 +49,26 @@ struct ContactRow {
   RawVec3 linear{};
   RawVec3 angular_a{}, angular_b{};
   RawVec3 response_a{}, response_b{};
-  int exponent = 0;          // power of two that scales its row
-  std::int64_t speed = 0;    // with bias, Q50
-  std::int64_t change = 0;   // of the impulse, as solved, Q32
   std::int64_t impulse = 0;  // m/s, Q32
 };
 
 /// A point along the normal.
 struct PointRow : ContactRow {
   std::int64_t x = 0, y = 0;  // offset from the centre, Q30
-  std::int64_t own = 0;       // response to itself, Q30
-  std::int64_t warp = 0;      // share in the null space of four points in a plane, Q30
 };
 
 struct ContactRows : ContactPair {
   std::array<PointRow, lanes::k_block_points> points{};
   std::uint32_t count = 0;
-  std::int64_t warp_size = 0;  // Σ warp², Q30; 0: none
   RawVec3 normal{}, tangent{}, binormal{};
-  BlockFloat inverse_mass{};                                 // of the pair
-  std::array<std::int64_t, lanes::k_block_points> masses{};  // as in the block
+  BlockFloat inverse_mass{};  // of the pair
 };
 
-/// Which points the contact has, and their masses.
-void find_masses(const ContactRun& run, ContactRows& contact);
-
-/// The rest of it, where the masses are known. Impulses are those of the block.
+/// The points and axes of a contact whose place and bodies are set. Impulses are those of the
+/// block.
 void find_rows(const ContactRun& run, ContactRows& contact);
 
-/// Responses and exponent of a row from its other parts.
+/// Responses of a row from its other parts.
 void find_responses(const ContactRun& run, const ContactPair& pair, ContactRow& row);
 
 }  // namespace lockstone

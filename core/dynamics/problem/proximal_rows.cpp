@@ -272,7 +272,6 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
   const std::size_t lane = contact.lane();
   ContactRows rows{};
   static_cast<ContactPair&>(rows) = contact;
-  find_masses(run, rows);
   find_rows(run, rows);
   contact.points = rows.count;
   contact.normal = rows.normal;

@@ -135,7 +135,6 @@ void InitialWarmStart::fill(const ContactRun& run, Support& support) {
   ContactRows& contact = support.contact;
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
-  find_masses(run, contact);
   find_rows(run, contact);
   const std::int64_t share_b = low_word(block.share[lane]);
   support.share = support.is_b ? share_b : (std::int64_t{1} << 30) - share_b;

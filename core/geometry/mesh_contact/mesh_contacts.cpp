@@ -39,10 +39,7 @@ bool are_equal(const Vec3<Unit>& a, const Vec3<Unit>& b) {
 /// Whether `to` is higher than `from` along `normal`, by more than rounding explains.
 bool rises(const Vec3<Unit>& normal, const Vec3<Length>& from, const Vec3<Length>& to) {
   const Vec3<Length> way = to - from;
-  const std::int64_t size = magnitude_of(std::int64_t{way.x.raw}) +
-                            magnitude_of(std::int64_t{way.y.raw}) +
-                            magnitude_of(std::int64_t{way.z.raw});
-  return lockstone::dot(normal, way).raw > k_flatness * size;
+  return lockstone::dot(normal, way).raw > k_flatness * sum_of_magnitudes(way);
 }
 
 int place_of(const TriangleVertices& triangle, const Vec3<Length>& vertex) {

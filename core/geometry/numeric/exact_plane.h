@@ -53,7 +53,7 @@ struct ExactPlane {
 [[nodiscard]] constexpr int side(const ExactPlane& plane, const Vec3<Length>& p) {
   const RawVec d = difference(p, plane.point);
   const Fine estimate = dot_fine(d, plane.unit);
-  const std::int64_t error = magnitude_of(d.x) + magnitude_of(d.y) + magnitude_of(d.z);
+  const std::int64_t error = sum_of_magnitudes(d);
   if (estimate > error) return 1;
   if (estimate < -error) return -1;
   const Int128 exact = dot_wide(plane.normal, d);

@@ -104,6 +104,17 @@ template <class T>
   return x < 0 ? -x : x;
 }
 
+/// |x| + |y| + |z|: at least the length.
+[[nodiscard]] constexpr std::int64_t sum_of_magnitudes(const RawVec& v) {
+  return magnitude_of(v.x) + magnitude_of(v.y) + magnitude_of(v.z);
+}
+
+/// The same of raws.
+template <class T>
+[[nodiscard]] constexpr std::int64_t sum_of_magnitudes(const Vec3<T>& v) {
+  return sum_of_magnitudes(raws_of(v));
+}
+
 /// −1 for negative values, else 1.
 [[nodiscard]] constexpr int sign_of(std::int64_t x) {
   return x < 0 ? -1 : 1;

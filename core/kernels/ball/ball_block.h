@@ -29,10 +29,6 @@ struct alignas(64) BodyPlace {
   friend bool operator==(const BodyPlace&, const BodyPlace&) = default;
 };
 
-/// Anchors are within this of where bodies are, m; positions of two bodies count as no farther
-/// apart than 4096 m along an axis, so that all sums of them fit Q50.
-inline constexpr int k_most_anchor_m = 1024;
-
 /// Openings are closed no faster than this, m/s, Q20.
 inline constexpr std::int64_t k_most_closing = std::int64_t{4} << 20;
 

@@ -41,7 +41,8 @@ HWY_INLINE HWY_ATTR Vector turned(const PlaceLanes& at, const Vector& anchor) {
   return add(add(multiply(at.x, anchor.x), multiply(at.y, anchor.y)), multiply(at.z, anchor.z));
 }
 
-/// The speed along an axis that takes B's point a quarter of the way to A's in a substep.
+/// The speed along an axis that takes B's point a quarter of the way to A's in a substep. Bodies
+/// count as no farther apart than 4096 m along it, so that all sums fit Q50.
 HWY_INLINE HWY_ATTR Lanes closing(Lanes apart, Lanes arms, Lanes rate) {
   constexpr std::int64_t k_far = std::int64_t{1} << 44;   // 4096 m, Q32
   constexpr std::int64_t k_wide = std::int64_t{1} << 53;  // 8 m, Q50

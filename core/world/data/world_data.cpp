@@ -30,12 +30,12 @@ Vec3<Velocity> uncovered_turn(const WorldData& world, std::uint32_t body) {
   const std::int64_t covered = covered_speed(world.time_step);
   if (record.is_dynamic()) {  // ω is at most spin over the least moment
     const Unit least = min(record.inertia.x, min(record.inertia.y, record.inertia.z));
-    const std::int64_t spin = sum_of_magnitudes(record.spin);
+    const std::int64_t spin = geometry::sum_of_magnitudes(record.spin);
     if (spin <= raw::multiply_shift(covered, least.raw, Unit::frac_bits)) return {};
   }
   const Vec3<Velocity> surface =
       surface_velocity(inverse_inertia(record, world.cache.rotation(body)), record.spin);
-  return sum_of_magnitudes(surface) > covered ? surface : Vec3<Velocity>{};
+  return geometry::sum_of_magnitudes(surface) > covered ? surface : Vec3<Velocity>{};
 }
 
 // How far turning takes any point of the body in one tick, along each axis, at most, beyond the way

@@ -37,12 +37,6 @@ namespace lockstone {
 [[nodiscard]] Vec3<Position> place_between(const ManifoldPoint& point, const BodyRecord& a,
                                            const BodyRecord& b);
 
-/// |x| + |y| + |z|, at least the length, raw.
-template <class T>
-[[nodiscard]] constexpr std::int64_t sum_of_magnitudes(const Vec3<T>& v) {
-  return abs(v.x).raw + abs(v.y).raw + abs(v.z).raw;
-}
-
 /// Properties that follow from a body's shape alone.
 struct ShapeProperties {
   Vec3<Unit> inertia{};  // principal moments / (mass · s²), at least k_min_inertia

@@ -37,10 +37,6 @@ Shape box_of(const std::array<std::int32_t, 3>& half) {
   return Shape::box(size.x, size.y, size.z);
 }
 
-std::int64_t sum_of(const Vec3<Length>& v) {
-  return magnitude_of(v.x.raw) + magnitude_of(v.y.raw) + magnitude_of(v.z.raw);
-}
-
 /// Whether the deepest point is as deep as the face says: see `attains`.
 bool reaches(const lanes::FourPoints& points, std::size_t count, Fine separation) {
   const Displacement least = to_separation(separation - k_agreement);
@@ -63,7 +59,8 @@ bool rules_out_edges(const ClipPolygon& polygon, const FaceMeeting& face) {
 
 bool BoxBatch::takes(const Shape& a, const Shape& b, const Vec3<Length>& offset) {
   return a.kind == ShapeKind::box && b.kind == ShapeKind::box &&
-         sum_of(a.size) + sum_of(b.size) + sum_of(offset) < Length::from_integer(16).raw;
+         sum_of_magnitudes(a.size) + sum_of_magnitudes(b.size) + sum_of_magnitudes(offset) <
+             Length::from_integer(16).raw;
 }
 
 void BoxBatch::add(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,

@@ -20,10 +20,6 @@ constexpr std::int64_t k_side_slack = 128;
 /// by at most a sixteenth on either axis.
 constexpr Fine k_height_slack = 2 * k_witness_slack + k_snap / 8;
 
-std::int64_t sum_of_sizes(const RawVec& v) {
-  return magnitude_of(v.x) + magnitude_of(v.y) + magnitude_of(v.z);
-}
-
 /// A side of the reference face, in its polytope's axes.
 struct FaceSide {
   RawVec start;
@@ -36,9 +32,9 @@ struct FaceSide {
   }
   /// The same of the side's slack. The errors of `outward` are covered by half of it where the side
   /// is not far shorter than the way to the point.
-  [[nodiscard]] std::int64_t slack() const { return k_side_slack * sum_of_sizes(outward); }
+  [[nodiscard]] std::int64_t slack() const { return k_side_slack * sum_of_magnitudes(outward); }
   [[nodiscard]] bool measures(const RawVec& point) const {
-    return sum_of_sizes(point - start) <= k_side_slack / 4 * sum_of_sizes(outward);
+    return sum_of_magnitudes(point - start) <= k_side_slack / 4 * sum_of_magnitudes(outward);
   }
 };
 

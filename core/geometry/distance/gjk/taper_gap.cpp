@@ -78,8 +78,7 @@ class TaperSearch {
   Nearest least_between(Bracket low, Bracket high) {
     constexpr AxisPlace k_narrow = AxisPlace{1} << 12;
     constexpr int k_first_halving = 80, k_most_steps = k_first_halving + 48;
-    const Fine rounding =
-        (magnitude_of(axis_.x) + magnitude_of(axis_.y) + magnitude_of(axis_.z)) >> Unit::frac_bits;
+    const Fine rounding = sum_of_magnitudes(axis_) >> Unit::frac_bits;
     int side = 0;  // of the last step
     Nearest middle;
     for (int step = 0; step < k_most_steps; ++step) {

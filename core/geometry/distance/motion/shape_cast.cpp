@@ -37,8 +37,7 @@ RawVec travelled(const Vec3<Length>& way, Fraction fraction) {
 /// How much nearer along the normal the whole translation brings B, plus the normal's rounding
 /// error.
 Fine approach(const Vec3<Length>& way, const Vec3<Unit>& normal) {
-  const Fine rounding = magnitude_of(way.x.raw) + magnitude_of(way.y.raw) + magnitude_of(way.z.raw);
-  return rounding - lockstone::dot(way, normal).raw;
+  return sum_of_magnitudes(way) - lockstone::dot(way, normal).raw;
 }
 
 /// distance / approach, rounded down; 1 and more give k_whole_cast.

@@ -168,8 +168,8 @@ bool Bounces::turns_much(std::uint32_t body) const {
   if (!record.is_dynamic() || record.shape().kind == ShapeKind::sphere) return false;
   const Vec3<Velocity> w =
       surface_velocity(inverse_inertia(record, world_.cache.rotation(body)), record.spin);
-  const std::int64_t turned =
-      raw::scale_binary(world_.time_step.tick.times(sum_of_magnitudes(w)), -record.scale_exponent);
+  const std::int64_t turned = raw::scale_binary(
+      world_.time_step.tick.times(geometry::sum_of_magnitudes(w)), -record.scale_exponent);
   return turned > std::int64_t{1} << 28;
 }
 

@@ -120,11 +120,12 @@ Position sweeping_limit(Length inner_radius, const geometry::AssetGeometry* asse
 bool may_turn_by_half(const BodyRecord& body, const Mat3& rotation, const TimeStep& step) {
   const std::int64_t limit =
       raw::scale_binary(std::int64_t{3 * step.tick_rate} << 32, body.scale_exponent);
-  const std::int64_t spin = sum_of_magnitudes(body.spin);
+  const std::int64_t spin = geometry::sum_of_magnitudes(body.spin);
   if (!body.is_dynamic()) return spin > limit;
   const Unit least = min(body.inertia.x, min(body.inertia.y, body.inertia.z));
   if (spin <= raw::multiply_shift(limit, least.raw, Unit::frac_bits)) return false;
-  return sum_of_magnitudes(surface_velocity(inverse_inertia(body, rotation), body.spin)) > limit;
+  return geometry::sum_of_magnitudes(surface_velocity(inverse_inertia(body, rotation), body.spin)) >
+         limit;
 }
 
 }  // namespace
@@ -182,7 +183,7 @@ bool ContinuousCollision::goes_far(std::uint32_t body, const Transform& start,
       is_swept ? rounded<Position>(world_.cache.inner_radius(body) / 2).raw
                : sweeping_limit(world_.cache.inner_radius(body), world_.cache.asset(body)).raw;
   const Vec3<Position> gone = record.position - start.position;
-  std::int64_t way = sum_of_magnitudes(gone);
+  std::int64_t way = geometry::sum_of_magnitudes(gone);
   if (way > limit) way = static_cast<std::int64_t>(norm(gone.x.raw, gone.y.raw, gone.z.raw));
   if (way > limit) return true;
   if (start.orientation == record.orientation) return false;
@@ -192,7 +193,7 @@ bool ContinuousCollision::goes_far(std::uint32_t body, const Transform& start,
   };
   // Most go nowhere near as far, and need no root.
   const Length reach =
-      Length::from_raw(raw::saturate<std::int32_t>(sum_of_magnitudes(record.size)));
+      Length::from_raw(raw::saturate<std::int32_t>(geometry::sum_of_magnitudes(record.size)));
   if (world_.cache.asset(body) == nullptr && !goes_far(reach)) return false;
   const Length radius = bounding_radius(record.shape(), world_.cache.asset(body));
   const bool shows_turning = radius > world_.cache.inner_radius(body) || !is_swept;
