@@ -51,6 +51,7 @@ void find_rows(const ContactRun& run, ContactRows& contact) {
   const std::array masses = masses_of(block, lane);
   for (contact.count = 0; contact.count < k_block_points; ++contact.count) {
     const std::size_t i = contact.count;
+    LKS_ASSERT(masses[i] >= 0);
     if (masses[i] == 0) break;
     PointRow& point = contact.points[i];
     const std::int64_t offset = block.points[i].offset[lane];
