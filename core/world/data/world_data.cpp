@@ -1,6 +1,7 @@
 #include "core/world/data/world_data.h"
 
 #include "core/dynamics/body/inertia.h"
+#include "core/geometry/numeric/q50.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
 #include "core/world/derived/quantities.h"

@@ -1,5 +1,6 @@
 // Laws that every pair with a polytope obeys, over random scenes of all sizes.
 #include "core/geometry/distance/separation.h"
+#include "core/math/roots.h"
 #include "tests/geometry/pairs/polytope_scene.h"
 #include "tests/support/workload.h"
 

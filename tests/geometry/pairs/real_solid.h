@@ -23,8 +23,6 @@ struct RealSolid {
   }
 };
 
-inline RealSolid real_solid(const PosedShape& posed, const RealVec& at);
-
 inline RealSolid real_polytope(const geometry::Polytope& p, const Mat3& rotation,
                                const RealVec& at) {
   RealSolid result;

@@ -7,7 +7,6 @@
 
 #include "core/geometry/convex/polytope.h"
 #include "core/math/predicates.h"
-#include "core/math/roots.h"
 #include "tests/geometry/scene.h"
 
 namespace lockstone::test {

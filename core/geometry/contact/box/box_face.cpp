@@ -56,12 +56,9 @@ struct FaceFrame {
       lanes[3 * j + 1] = of_b_axis.y.raw;
       lanes[3 * j + 2] = of_b_axis.z.raw;
     }
-    std::int64_t sum = 0;
-    for (int i = 0; i < 3; ++i) {
-      sum += magnitude_of(boxes.offset[i].raw) + reference.shape.size[i].raw +
-             incident.shape.size[i].raw;
-    }
-    is_small = sum < Length::from_integer(32).raw;
+    is_small = sum_of_magnitudes(boxes.offset) + sum_of_magnitudes(reference.shape.size) +
+                   sum_of_magnitudes(incident.shape.size) <
+               Length::from_integer(32).raw;
   }
 
   [[nodiscard]] std::int64_t lane(int j, int i) const {

@@ -8,6 +8,7 @@
 
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/state/limits.h"
+#include "core/geometry/numeric/q50.h"
 #include "core/world/derived/quantities.h"
 
 namespace lockstone {

@@ -11,6 +11,7 @@
 #include "core/collision/continuous/relative_path.h"
 #include "core/dynamics/body/motion.h"
 #include "core/dynamics/impact/impact_response.h"
+#include "core/geometry/numeric/q50.h"
 #include "core/math/roots.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/phases/motion/early_stop.h"
