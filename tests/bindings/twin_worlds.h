@@ -27,6 +27,7 @@ class TwinWorlds : public ::testing::Test {
   }
 
   void SetUp() override {
+    using namespace lockstone::literals;
     EXPECT_EQ(lks_assets_create(&assets_), LKS_OK);
     std::vector<Vec3<Length>> points;
     std::vector<lks_length3> raw_points;
@@ -142,6 +143,23 @@ class TwinWorlds : public ::testing::Test {
     EXPECT_EQ(hash, config_hash(def_, world_->assets()->hash()));
     expect_same_state("create");
   }
+};
+
+/// A body of each kind of motion and of the usual shapes above a half space.
+class TwinScene : public TwinWorlds {
+ protected:
+  void SetUp() override {
+    using namespace lockstone::literals;
+    TwinWorlds::SetUp();
+    add(MotionType::static_body, Shape::half_space(), 0, 0);
+    ball_ = add(MotionType::dynamic, Shape::sphere(1_m), 0, 3);
+    box_ = add(MotionType::dynamic, Shape::box(1_m, 0.5_m, 2_m), 5, 3);
+    add(MotionType::dynamic, Shape::capsule(1_m, 0.5_m), 10, 3);
+    hull_body_ = add(MotionType::dynamic, {ShapeKind::hull, {}, hull_}, 15, 3);
+    lift_ = add(MotionType::kinematic, Shape::box(1_m, 1_m, 1_m), 20, 3);
+  }
+
+  BodyHandle ball_, box_, hull_body_, lift_;
 };
 
 }  // namespace lockstone
